@@ -1,0 +1,117 @@
+#include "bus/health.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <lcmslam/service_status_t.hpp>
+#include <unistd.h>
+
+namespace lcmslam {
+namespace {
+
+double ResidentMegabytes() {
+  std::ifstream statm("/proc/self/statm");
+  int64_t total = 0, resident = 0;
+  statm >> total >> resident;
+  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+// The q-quantile by nearest rank; `values` sorted.
+float Quantile(const std::vector<double>& values, double q) {
+  if (values.empty()) return 0.0F;
+  const auto rank = static_cast<size_t>(std::ceil(q * static_cast<double>(values.size())));
+  return static_cast<float>(values[std::max<size_t>(rank, 1) - 1]);
+}
+
+}  // namespace
+
+int64_t GapCounter::Missing(int64_t utime) {
+  const int64_t step_us = utime - last_utime_;
+  const bool first = !started_;
+  started_ = true;
+  last_utime_ = utime;
+  if (first || step_us <= 0) return 0;
+  int64_t missing = 0;
+  const size_t known = std::min(seen_, kWindow);
+  if (known >= 5) {
+    std::array<int64_t, kWindow> sorted = periods_us_;
+    std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(known));
+    const auto period_us = static_cast<double>(sorted[known / 2]);
+    missing = std::max<int64_t>(0, std::llround(static_cast<double>(step_us) / period_us) - 1);
+  }
+  periods_us_[seen_++ % kWindow] = step_us;
+  return missing;
+}
+
+void Health::NoteInput(std::string_view channel, int64_t utime) {
+  auto gap = gaps_.find(channel);
+  if (gap == gaps_.end()) gap = gaps_.emplace(std::string(channel), GapCounter()).first;
+  missing_ += gap->second.Missing(utime);
+  input_utime_ = utime;
+}
+
+void Health::NoteLatency(double latency_ms, double busy_ms) {
+  latencies_ms_.push_back(latency_ms);
+  busy_ms_ += busy_ms;
+}
+
+int8_t Health::State() const {
+  if (processed_ == 0) return service_status_t::WAITING;
+  return dropped_ + refused_ + missing_ > reported_loss_ ? service_status_t::DEGRADED : service_status_t::OK;
+}
+
+service_status_t Health::Report(int64_t utime, bool wall_clock) {
+  service_status_t status{};
+  status.utime = utime;
+  status.input_utime = input_utime_;
+  status.received = received_;
+  status.processed = processed_;
+  status.dropped = dropped_;
+  status.refused = refused_;
+  status.missing = missing_;
+  status.state = State();
+  status.name = name_;
+  status.text = text_;
+  if (wall_clock) {
+    std::ranges::sort(latencies_ms_);
+    status.latency_p50_ms = Quantile(latencies_ms_, 0.50);
+    status.latency_p95_ms = Quantile(latencies_ms_, 0.95);
+    status.latency_p99_ms = Quantile(latencies_ms_, 0.99);
+    const double input_ms = static_cast<double>(input_utime_ - reported_input_utime_) / 1e3;
+    const bool comparable = reported_input_utime_ > 0 && input_ms > 0.0 && busy_ms_ > 0.0;
+    status.real_time_factor = comparable ? static_cast<float>(input_ms / busy_ms_) : 0.0F;
+    status.rss_mb = static_cast<float>(ResidentMegabytes());
+    status.kernel_dropped = KernelDroppedDatagrams();
+  }
+  reported_loss_ = dropped_ + refused_ + missing_;
+  reported_input_utime_ = input_utime_;
+  latencies_ms_.clear();
+  busy_ms_ = 0.0;
+  return status;
+}
+
+std::string Health::Summary() const {
+  std::string line = fmt::format("{}: {} received, {} processed", name_, received_, processed_);
+  if (dropped_ > 0) line += fmt::format(", {} dropped", dropped_);
+  if (refused_ > 0) line += fmt::format(", {} refused", refused_);
+  if (missing_ > 0) line += fmt::format(", {} missing", missing_);
+  return text_.empty() ? line : line + "; " + text_;
+}
+
+int64_t KernelDroppedDatagrams() {
+  std::ifstream snmp("/proc/net/snmp");
+  std::string names, values;
+  while (std::getline(snmp, names) && std::getline(snmp, values)) {
+    if (!names.starts_with("Udp:")) continue;
+    std::istringstream name(names), value(values);
+    for (std::string n, v; name >> n && value >> v;) {
+      if (n == "RcvbufErrors") return std::stoll(v);
+    }
+  }
+  return 0;
+}
+
+}  // namespace lcmslam

@@ -1,0 +1,56 @@
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "bus/live_bus.h"
+#include "bus/service.h"
+#include "bus/signals.h"
+
+namespace lcmslam {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+// Wall-clock seconds, one tick each, none made up for when handling takes longer.
+class SecondTimer {
+ public:
+  bool Elapsed() {
+    const auto now = steady_clock::now();
+    if (now < next_) return false;
+    next_ = now + std::chrono::seconds(1);
+    return true;
+  }
+
+ private:
+  steady_clock::time_point next_ = steady_clock::now() + std::chrono::seconds(1);
+};
+
+}  // namespace
+
+ExitCode RunLive(ServiceContext& context, const ServiceFactory& make_service) {
+  CatchStopSignals();
+  LiveBus bus(context.options().lcm_url);
+  context.SetSink([&](int64_t, const std::string& channel, Bytes data) { bus.Publish(channel, data); });
+  const std::unique_ptr<Service> service = make_service(context);
+  LiveReceiver receiver(bus, static_cast<size_t>(context.options().queue_messages));
+  fmt::print(stderr, "READY\n");
+
+  SecondTimer second;
+  while (!receiver.drained()) {
+    if (StopRequested()) receiver.Drain();
+    if (const auto arrival = receiver.Pop(milliseconds(50))) {
+      const std::chrono::duration<double, std::milli> waited = steady_clock::now() - arrival->when;
+      context.Dispatch(arrival->event, waited.count());
+    }
+    context.health().SetDropped(receiver.dropped());
+    if (second.Elapsed()) context.Tick(WallClockUtime());
+  }
+  service->Finish();
+  context.Tick(WallClockUtime());
+  if (receiver.failed())
+    throw CommandError(ExitCode::kRuntime, fmt::format("LCM URL '{}': the connection broke", bus.url()));
+  return ExitCode::kOk;
+}
+
+}  // namespace lcmslam
