@@ -1,0 +1,60 @@
+#include "lidar/occupancy_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+namespace lcmslam {
+namespace {
+
+char PgmValue(int8_t cell) {
+  if (cell > 0) return static_cast<char>(0);
+  if (cell < 0) return static_cast<char>(254);
+  return static_cast<char>(205);
+}
+
+std::string WriteFile(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file << bytes;
+  file.close();
+  return file ? "" : fmt::format("{}: cannot write", path.string());
+}
+
+}  // namespace
+
+int8_t QuantizeLogOdds(double log_odds) {
+  if (std::isnan(log_odds)) return 0;
+  const double steps = std::clamp(10.0 * log_odds, -127.0, 127.0);
+  return static_cast<int8_t>(steps < 0.0 ? std::floor(steps) : std::ceil(steps));
+}
+
+std::string EncodePgm(const OccupancyGrid& grid) {
+  std::string pgm = fmt::format("P5\n{} {}\n255\n", grid.width, grid.height);
+  pgm.reserve(pgm.size() + grid.cells.size());
+  for (int row = grid.height - 1; row >= 0; --row) {
+    for (int column = 0; column < grid.width; ++column) pgm.push_back(PgmValue(grid.At(column, row)));
+  }
+  return pgm;
+}
+
+std::string MapYaml(const OccupancyGrid& grid, const std::string& image_name) {
+  return fmt::format(
+      "image: {}\n"
+      "resolution: {}\n"
+      "origin: [{}, {}, 0.0]\n"
+      "negate: 0\n"
+      "occupied_thresh: 0.65\n"
+      "free_thresh: 0.196\n",
+      image_name, grid.cell_m, grid.origin_m.x(), grid.origin_m.y());
+}
+
+std::string WriteMapFiles(const OccupancyGrid& grid, const std::string& stem) {
+  const std::filesystem::path image = stem + ".pgm";
+  const std::string error = WriteFile(image, EncodePgm(grid));
+  return error.empty() ? WriteFile(stem + ".yaml", MapYaml(grid, image.filename().string())) : error;
+}
+
+}  // namespace lcmslam
