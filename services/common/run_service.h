@@ -1,0 +1,44 @@
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "bus/service.h"
+
+namespace google::protobuf {
+class Message;
+}
+
+namespace lcmslam {
+
+// What every command line of the project shares: exit codes, one-line errors.
+// Runs `body`; a CommandError ends it with its line and code, any other exception with kRuntime.
+int RunCommand(const std::string& name, const std::function<ExitCode()>& body);
+
+// The same for a service in terms of its parts; use RunService.
+struct ServiceParts {
+  std::string name;  // "sdf2d-slam"
+  std::string description;
+  google::protobuf::Message* config;  // empty at first; the effective configuration after `complete`
+  std::function<void()> complete;     // checks the configuration and fills in what is unset
+  ServiceFactory make;
+};
+int RunServiceParts(int argc, char** argv, const ServiceParts& parts);
+
+// The whole main of a service. S is a Service with
+//   using Options = ...;  using Config = a Protocol Buffers message;
+//   static constexpr const char* kName;
+//   static Options Complete(Config&);             // binds, validates; throws CommandError
+//   S(const Options&, const Config&, ServiceContext&);
+template <std::derived_from<Service> S>
+int RunService(int argc, char** argv, const std::string& description) {
+  typename S::Config config;
+  typename S::Options options;
+  return RunServiceParts(argc, argv,
+                         {S::kName, description, &config, [&] { options = S::Complete(config); },
+                          [&](ServiceContext& context) { return std::make_unique<S>(options, config, context); }});
+}
+
+}  // namespace lcmslam
