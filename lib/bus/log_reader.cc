@@ -1,5 +1,6 @@
 #include "bus/log_reader.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -57,9 +58,16 @@ bool LogReader::ReadEventHere(Event& event) {
   event.data.resize(data_bytes);
   file_.read(event.channel.data(), static_cast<std::streamsize>(channel_bytes));
   file_.read(reinterpret_cast<char*>(event.data.data()), static_cast<std::streamsize>(data_bytes));
-  if (!file_) return false;
+  if (!file_ || LengthIsDamaged(event, end)) return false;
   position_ = end;
   return true;
+}
+
+// A length that is too large leads to a place where no event starts, and swallows events whole.
+bool LogReader::LengthIsDamaged(const Event& event, uint64_t end) {
+  std::array<char, kSync.size()> next;
+  if (end == size_bytes_ || (file_.read(next.data(), next.size()) && next == kSync)) return false;
+  return !std::ranges::search(event.data, kSync, {}, [](uint8_t byte) { return static_cast<char>(byte); }).empty();
 }
 
 // Moves to the next sync word behind the present position.

@@ -37,6 +37,7 @@ class LogReader {
 
  private:
   bool ReadEventHere(Event& event);
+  bool LengthIsDamaged(const Event& event, uint64_t end);
   void Resynchronize();
 
   std::filesystem::path path_;

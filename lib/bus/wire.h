@@ -33,7 +33,7 @@ bool LayoutFits(Bytes message);
 template <LcmMessage M>
 std::optional<M> Decode(Bytes message) {
   if (message.size() > kMaxMessageBytes || Fingerprint(message) != M::getHash() || !LayoutFits<M>(message)) return {};
-  M decoded;
+  M decoded{};
   const int length = decoded.decode(message.data(), 0, static_cast<int>(message.size()));
   if (length != static_cast<int>(message.size())) return {};
   return decoded;

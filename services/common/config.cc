@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 
@@ -43,7 +44,9 @@ void LoadConfig(const std::string& path, pb::Message& config) {
   FirstError error;
   pb::TextFormat::Parser parser;
   parser.RecordErrorsTo(&error);
-  if (!parser.MergeFromString(text.str(), &config)) Fail(fmt::format("{}:{}", path, error.text()));
+  const std::unique_ptr<pb::Message> parsed(config.New());  // merging text directly would accept duplicates
+  if (!parser.ParseFromString(text.str(), parsed.get())) Fail(fmt::format("{}:{}", path, error.text()));
+  config.MergeFrom(*parsed);
 }
 
 void SetConfigField(const std::string& assignment, pb::Message& config) {
