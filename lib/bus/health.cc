@@ -9,6 +9,8 @@
 #include <lcmslam/service_status_t.hpp>
 #include <unistd.h>
 
+#include "geometry/utime.h"
+
 namespace lcmslam {
 namespace {
 
@@ -29,7 +31,7 @@ float Quantile(const std::vector<double>& values, double q) {
 }  // namespace
 
 int64_t GapCounter::Missing(int64_t utime) {
-  const int64_t step_us = utime - last_utime_;
+  const int64_t step_us = UtimeDifference(utime, last_utime_);
   const bool first = !started_;
   started_ = true;
   last_utime_ = utime;
@@ -80,7 +82,7 @@ service_status_t Health::Report(int64_t utime, bool wall_clock) {
     status.latency_p50_ms = Quantile(latencies_ms_, 0.50);
     status.latency_p95_ms = Quantile(latencies_ms_, 0.95);
     status.latency_p99_ms = Quantile(latencies_ms_, 0.99);
-    const double input_ms = static_cast<double>(input_utime_ - reported_input_utime_) / 1e3;
+    const double input_ms = static_cast<double>(UtimeDifference(input_utime_, reported_input_utime_)) / 1e3;
     const bool comparable = reported_input_utime_ > 0 && input_ms > 0.0 && busy_ms_ > 0.0;
     status.real_time_factor = comparable ? static_cast<float>(input_ms / busy_ms_) : 0.0F;
     status.rss_mb = static_cast<float>(ResidentMegabytes());

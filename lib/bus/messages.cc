@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <lcmslam/planar_lidar_t.hpp>
 #include <lcmslam/planar_scan_t.hpp>
@@ -10,16 +9,17 @@
 #include <lcmslam/pose_xyt_t.hpp>
 #include <lcmslam/rigid_transform_t.hpp>
 
+#include "geometry/utime.h"
+
 namespace lcmslam {
 namespace {
 
 // Beam times further than this from the scan's stamp are not times (some drivers leave them 0).
 constexpr int64_t kMaxScanDurationUs = 10'000'000;
 
-// For |stamp - time| without overflow.
 bool Near(int64_t stamp, int64_t time) {
-  int64_t difference = 0;
-  return !__builtin_sub_overflow(stamp, time, &difference) && std::abs(difference) <= kMaxScanDurationUs;
+  const int64_t difference_us = UtimeDifference(stamp, time);
+  return difference_us <= kMaxScanDurationUs && difference_us >= -kMaxScanDurationUs;
 }
 
 PlanarScan ToScan(const planar_scan_t& message) {

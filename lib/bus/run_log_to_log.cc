@@ -6,6 +6,7 @@
 #include "bus/progress.h"
 #include "bus/service.h"
 #include "bus/signals.h"
+#include "geometry/utime.h"
 
 namespace lcmslam {
 namespace {
@@ -16,7 +17,8 @@ constexpr int64_t kSecondUs = 1'000'000;
 class LogTimer {
  public:
   bool Elapsed(int64_t utime) {
-    const bool jumped = !started_ || utime < next_ - kSecondUs || utime > next_ + 10 * kSecondUs;
+    const bool jumped =
+        !started_ || UtimeDifference(utime, next_) < -kSecondUs || UtimeDifference(utime, next_) > 10 * kSecondUs;
     const bool elapsed = started_ && utime >= next_;
     if (jumped) {
       next_ = utime + kSecondUs;

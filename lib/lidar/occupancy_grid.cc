@@ -25,6 +25,23 @@ std::string WriteFile(const std::filesystem::path& path, const std::string& byte
 
 }  // namespace
 
+OccupancyGrid CoarsenedTo(OccupancyGrid grid, int max_cells) {
+  const auto parts = [](int cells, int k) { return (cells + k - 1) / k; };
+  int k = 1;
+  while (int64_t{parts(grid.width, k)} * parts(grid.height, k) > max_cells) ++k;
+  if (k == 1) return grid;
+  OccupancyGrid coarse{grid.origin_m, k * grid.cell_m, parts(grid.width, k), parts(grid.height, k), {}};
+  coarse.cells.assign(static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height), 0);
+  for (int row = 0; row < grid.height; ++row) {
+    for (int column = 0; column < grid.width; ++column) {
+      const int8_t cell = grid.At(column, row);
+      int8_t& merged = coarse.cells[static_cast<size_t>(row / k) * coarse.width + column / k];
+      merged = cell > 0 || merged > 0 ? std::max(cell, merged) : std::min(cell, merged);
+    }
+  }
+  return coarse;
+}
+
 int8_t QuantizeLogOdds(double log_odds) {
   if (std::isnan(log_odds)) return 0;
   const double steps = std::clamp(10.0 * log_odds, -127.0, 127.0);

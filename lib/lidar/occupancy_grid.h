@@ -21,6 +21,10 @@ struct OccupancyGrid {
   int8_t At(int column, int row) const { return cells[static_cast<size_t>(row) * width + column]; }
 };
 
+// The grid with k x k cells merged into one, k the least that leaves at most `max_cells`. A merged cell is as occupied
+// as its most occupied cell, else as free as its freest.
+[[nodiscard]] OccupancyGrid CoarsenedTo(OccupancyGrid grid, int max_cells);
+
 // Log odds in steps of 0.1, cut off at +-127; only 0 and NaN become 0.
 int8_t QuantizeLogOdds(double log_odds);
 

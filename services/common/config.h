@@ -14,8 +14,8 @@ class Message;
 
 namespace lcmslam {
 
-// Configurations are Protocol Buffers text; numbers in them are int64 or double, fields optional. All functions throw CommandError (kUsage) with one line that names file or
-// argument, and the field.
+// Configurations are Protocol Buffers text; numbers in them are int64 or double, fields optional. All functions throw
+// CommandError (kUsage) with one line that names file or argument, and the field.
 
 // Adds the file's fields to `config`. Unknown fields and duplicates are errors.
 void LoadConfig(const std::string& path, google::protobuf::Message& config);

@@ -59,5 +59,23 @@ TEST(OccupancyGrid, WritesBothFilesOrSaysWhichItCannot) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(OccupancyGrid, CoarseningKeepsWhatIsOccupied) {
+  OccupancyGrid grid{{-1.0, 2.0},
+                     0.05,
+                     5,
+                     3,
+                     {0, -3, 0, 0, 0,  //
+                      0, -9, 0, 4, 0,  //
+                      0, 0, 0, -8, 7}};
+  EXPECT_EQ(CoarsenedTo(grid, 15).width, 5);
+  const OccupancyGrid coarse = CoarsenedTo(grid, 14);
+  EXPECT_DOUBLE_EQ(coarse.cell_m, 0.10);
+  EXPECT_EQ(coarse.origin_m, grid.origin_m);
+  ASSERT_EQ(coarse.width, 3);
+  ASSERT_EQ(coarse.height, 2);
+  EXPECT_EQ(coarse.cells, (std::vector<int8_t>{-9, 4, 0, 0, -8, 7}));
+  EXPECT_EQ(CoarsenedTo(OccupancyGrid(), 10).width, 0);
+}
+
 }  // namespace
 }  // namespace lcmslam
