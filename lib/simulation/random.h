@@ -8,7 +8,7 @@ namespace lcmslam {
 using Rng = std::mt19937_64;
 
 // Independent streams of one seed, so that switching one effect on or off leaves the others as they were.
-enum class RandomStream : uint32_t { kStart, kMotion, kRange, kOdometry, kObjects, kPeople };
+enum class RandomStream : uint32_t { kStart, kMotion, kRange, kOdometry, kObjects, kPeople, kDropout, kImu };
 
 // A generator for item `index` of a stream. The same bits on every platform; draw with Boost.Random, whose
 // distributions are portable where those of <random> are not.

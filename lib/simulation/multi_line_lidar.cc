@@ -1,0 +1,143 @@
+#include "simulation/multi_line_lidar.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_01.hpp>
+
+#include "simulation/random.h"
+
+namespace lcmslam {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// Lidar motion around the start of one firing cycle, to first order in time: exact to nanometres within a cycle.
+struct CycleMotion {
+  Vector3d origin;                  // of the lidar, world frame
+  Vector3d velocity;                // of the lidar, world frame
+  Matrix3d R_world_lidar;           //
+  Vector3d angular_velocity_radps;  // of the lidar, world frame
+};
+
+CycleMotion MotionOf(const BodyState& body, const Pose3& T_body_lidar) {
+  const Pose3 T_world_lidar = body.T_world_body * T_body_lidar;
+  const Vector3d rate = body.T_world_body.rotation * body.angular_velocity_radps;
+  const Vector3d lever = body.T_world_body.rotation * T_body_lidar.translation;
+  return {T_world_lidar.translation, body.velocity_mps + rate.cross(lever), T_world_lidar.rotation.toRotationMatrix(),
+          rate};
+}
+
+CycleMotion AtRest(const Pose3& T_world_lidar) {
+  return {T_world_lidar.translation, Vector3d::Zero(), T_world_lidar.rotation.toRotationMatrix(), Vector3d::Zero()};
+}
+
+// Beam directions at the start of a cycle that begins at azimuth 0, each already turned on by its own delay.
+std::vector<Vector3d> BeamDirections(const MultiLineLidarModel& model) {
+  std::vector<Vector3d> directions;
+  for (const Laser& laser : model.lasers) {
+    const double azimuth_rad = laser.azimuth_rad - 2.0 * std::numbers::pi * 1e-6 * laser.fire_delay_us / model.turn_s;
+    directions.emplace_back(std::cos(laser.elevation_rad) * std::cos(azimuth_rad),
+                            std::cos(laser.elevation_rad) * std::sin(azimuth_rad), std::sin(laser.elevation_rad));
+  }
+  return directions;
+}
+
+// The first cycle that starts in turn `index` or later.
+int64_t FirstCycle(const MultiLineLidarModel& model, int index) {
+  return static_cast<int64_t>(std::ceil(1e6 * model.turn_s * index / model.firing_cycle_us - 1e-9));
+}
+
+// Range along the beam and intensity as the sensor measures them; noise and dropout are drawn for every shot, so that
+// one shot's fate leaves the others alone.
+class Receiver {
+ public:
+  Receiver(const MultiLineLidarOptions& options, uint64_t seed, int index)
+      : options_(options),
+        range_rng_(MakeRng(seed, RandomStream::kRange, static_cast<uint64_t>(index))),
+        dropout_rng_(MakeRng(seed, RandomStream::kDropout, static_cast<uint64_t>(index))) {}
+
+  struct Echo {
+    bool seen = false;
+    double range_m = 0.0;
+    double intensity = 0.0;
+  };
+
+  Echo Receive(const SpatialRay& ray, const SpatialHit& hit) {
+    const double noise_m = options_.range_sigma_m * normal_(range_rng_);
+    const bool dropped = uniform_(dropout_rng_) < options_.dropout_probability;
+    if (dropped || !std::isfinite(hit.range_m)) return {};
+    const double returned = hit.reflectivity * -hit.normal.dot(ray.direction);
+    const double range_m = hit.range_m + noise_m;
+    const bool too_weak = hit.range_m > options_.model.max_range_m * std::sqrt(returned);
+    if (too_weak || range_m < options_.model.min_range_m) return {};
+    return {true, range_m, 255.0 * returned};
+  }
+
+ private:
+  const MultiLineLidarOptions& options_;
+  Rng range_rng_;
+  Rng dropout_rng_;
+  boost::random::normal_distribution<double> normal_;
+  boost::random::uniform_01<double> uniform_;
+};
+
+}  // namespace
+
+std::string MultiLineLidarOptions::Validate() const {
+  if (const std::string error = model.Validate(); !error.empty()) return "model." + error;
+  if (!(range_sigma_m >= 0.0) || !std::isfinite(range_sigma_m)) return "range_sigma_m: must not be negative";
+  if (!(dropout_probability >= 0.0 && dropout_probability <= 1.0)) return "dropout_probability: must be in 0..1";
+  if (!T_body_lidar.IsFinite()) return "T_body_lidar: must be finite";
+  return "";
+}
+
+Sweep SimulateSweep(const SpatialWorld& world, const SpatialMotion& motion, int index,
+                    const MultiLineLidarOptions& options, uint64_t seed) {
+  const MultiLineLidarModel& model = options.model;
+  const std::vector<Vector3d> directions = BeamDirections(model);
+  const int64_t first_cycle = FirstCycle(model, index);
+  const int64_t end_cycle = FirstCycle(model, index + 1);
+  const double last_shot_us =
+      static_cast<double>(end_cycle - 1) * model.firing_cycle_us + model.lasers.back().fire_delay_us;
+  const CycleMotion at_end = AtRest(motion.PoseAt(1e-6 * last_shot_us) * options.T_body_lidar);
+
+  Sweep sweep{.utime = std::llround(last_shot_us), .points = {}};
+  sweep.points.reserve(static_cast<size_t>(end_cycle - first_cycle) * model.lasers.size());
+  std::vector<SpatialRay> rays(model.lasers.size());
+  std::vector<SpatialHit> hits(model.lasers.size());
+  Receiver receiver(options, seed, index);
+  for (int64_t cycle = first_cycle; cycle < end_cycle; ++cycle) {
+    const double cycle_us = static_cast<double>(cycle) * model.firing_cycle_us;
+    const CycleMotion lidar =
+        options.motion_distortion ? MotionOf(motion.StateAt(1e-6 * cycle_us), options.T_body_lidar) : at_end;
+    const Matrix3d R_lidar_head =
+        AngleAxisd(-2.0 * std::numbers::pi * 1e-6 * cycle_us / model.turn_s, Vector3d::UnitZ()).toRotationMatrix();
+    const Matrix3d R_world_head = lidar.R_world_lidar * R_lidar_head;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const double delay_s = 1e-6 * model.lasers[i].fire_delay_us;
+      const Vector3d direction = R_world_head * directions[i];
+      rays[i].origin = (lidar.origin + delay_s * lidar.velocity).cast<float>();
+      rays[i].direction = (direction + delay_s * lidar.angular_velocity_radps.cross(direction)).cast<float>();
+    }
+    world.CastRays(rays, hits);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const Receiver::Echo echo = receiver.Receive(rays[i], hits[i]);
+      if (!echo.seen) continue;
+      const Eigen::Vector3f p_lidar = (echo.range_m * (R_lidar_head * directions[i])).cast<float>();
+      const int64_t shot_utime = std::llround(cycle_us + model.lasers[i].fire_delay_us);
+      sweep.points.push_back({.x = p_lidar.x(),
+                              .y = p_lidar.y(),
+                              .z = p_lidar.z(),
+                              .intensity = static_cast<float>(echo.intensity),
+                              .ring = model.lasers[i].ring,
+                              .dt_us = options.motion_distortion ? static_cast<int32_t>(shot_utime - sweep.utime) : 0});
+    }
+  }
+  return sweep;
+}
+
+}  // namespace lcmslam
