@@ -20,9 +20,9 @@ using Eigen::Vector3d;
 constexpr int64_t kStep_us = 10'000;
 constexpr double kStep_s = 0.01;
 constexpr int kStepsPerCommand = 10;
-constexpr double kReach_m = 0.8;            // how far ahead on its way the robot looks
-constexpr double kGoalRadius_m = 0.3;       // a goal counts as reached, without stopping there
-constexpr double kGoalPatience_s = 30.0;    // then another goal
+constexpr double kReach_m = 0.8;       // how far ahead on its way the robot looks
+constexpr double kGoalRadius_m = 0.3;  // a goal counts as reached, without stopping there
+constexpr int kGoalTrials = 10;
 constexpr double kTurnTime_s = 0.6;         // a heading error is turned off in about this time
 constexpr double kSlowestCruise = 0.5;      // each goal is approached at a random share of the top speed, at least this
 constexpr double kMeanderPatience_s = 2.0;  // an omnidirectional robot changes its yaw rate that often
@@ -55,13 +55,18 @@ class Driver {
   double Uniform(double low, double high) { return boost::random::uniform_real_distribution<double>(low, high)(rng_); }
 
   void ChooseGoal(const State& state) {
-    goal_age_s_ += kStepsPerCommand * kStep_s;
-    const bool reached = guide_ && (goal_ - state.T_world_body.translation()).norm() < kGoalRadius_m;
-    if (guide_ && !reached && goal_age_s_ < kGoalPatience_s) return;
-    goal_ = space_.RandomPlace(rng_);
+    if (guide_ && (goal_ - state.T_world_body.translation()).norm() > kGoalRadius_m) return;
+    goal_ = GoalAhead(state.T_world_body);
     guide_.emplace(space_, goal_);
-    goal_age_s_ = 0.0;
     cruise_mps_ = options_.max_speed_mps * Uniform(kSlowestCruise, 1.0);
+  }
+
+  // Prefers goals in front: turning on the spot takes long.
+  Vector2d GoalAhead(const Pose2& T_world_body) {
+    Vector2d goal = space_.RandomPlace(rng_);
+    const Pose2 T_body_world = T_world_body.inverse();
+    for (int i = 0; i < kGoalTrials && (T_body_world * goal).x() < kGoalRadius_m; ++i) goal = space_.RandomPlace(rng_);
+    return goal;
   }
 
   Velocity WantedVelocity(const State& state) {
@@ -137,7 +142,6 @@ class Driver {
   Rng rng_;
   std::optional<PlanarFreeSpace::Guide> guide_;
   Vector2d goal_ = Vector2d::Zero();
-  double goal_age_s_ = 0.0;
   double cruise_mps_ = 0.0;
   double meander_radps_ = 0.0;
 };

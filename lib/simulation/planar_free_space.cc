@@ -15,8 +15,10 @@ using Eigen::Vector2d;
 
 constexpr double kFinestCell_m = 0.05;
 constexpr double kMaxCellsPerSide = 1000.0;
-constexpr double kSlackCap_m = 0.4;    // ways keep this much more than the clearance where there is room
-constexpr double kDetourFactor = 3.0;  // how much longer a way may be for having that room
+constexpr double kSamplesPerCell = 8.0;   // along a line of sight
+constexpr double kSightHalfWidth = 0.25;  // of a line of sight, in cells
+constexpr double kSlackCap_m = 0.4;       // ways keep this much more than the clearance where there is room
+constexpr double kDetourFactor = 10.0;    // how much longer a way may be for having that room
 
 }  // namespace
 
@@ -74,9 +76,11 @@ std::vector<PlanarFreeSpace::Neighbour> PlanarFreeSpace::FreeNeighbours(int cell
 }
 
 bool PlanarFreeSpace::LineOfSight(const Vector2d& a, const Vector2d& b) const {
-  const int samples = 1 + static_cast<int>(2.0 * (b - a).norm() / cell_m_);
+  const Vector2d aside = kSightHalfWidth * cell_m_ * (b - a).unitOrthogonal();
+  const int samples = 1 + static_cast<int>(kSamplesPerCell * (b - a).norm() / cell_m_);
   for (int i = 0; i <= samples; ++i) {
-    if (!Contains(a + (b - a) * i / samples)) return false;
+    const Vector2d p = a + (b - a) * i / samples;
+    if (!Contains(p + aside) || !Contains(p - aside)) return false;
   }
   return true;
 }
@@ -121,23 +125,23 @@ PlanarFreeSpace::Guide::Guide(const PlanarFreeSpace& space, const Vector2d& goal
     open.pop();
     if (cell_cost > cost[static_cast<size_t>(cell)]) continue;
     for (const Neighbour& neighbour : space.FreeNeighbours(cell)) {
-      const double crowding = 1.0 - space.slack_m_[static_cast<size_t>(neighbour.cell)] / kSlackCap_m;
-      visit(neighbour.cell, cell, cell_cost + neighbour.distance_m * (1.0 + (kDetourFactor - 1.0) * crowding));
+      const double room = space.slack_m_[static_cast<size_t>(neighbour.cell)] / kSlackCap_m;
+      visit(neighbour.cell, cell, cell_cost + neighbour.distance_m * std::pow(kDetourFactor, 1.0 - room));
     }
   }
 }
 
 Vector2d PlanarFreeSpace::Guide::Ahead(const Vector2d& p, double reach_m) const {
+  const auto next = [this](int cell) { return next_[static_cast<size_t>(cell)]; };
   int cell = space_.CellAt(p);
-  if (cell < 0 || next_[static_cast<size_t>(cell)] < 0) return p;
-  Vector2d ahead = p;
-  while (next_[static_cast<size_t>(cell)] != cell) {
-    cell = next_[static_cast<size_t>(cell)];
-    const Vector2d candidate = space_.Center(cell);
+  if (cell < 0 || next(cell) < 0) return p;
+  cell = next(cell);  // always in sight: the two cells, and for a diagonal the two beside them, are free
+  while (next(cell) != cell) {
+    const Vector2d candidate = space_.Center(next(cell));
     if ((candidate - p).norm() > reach_m || !space_.LineOfSight(p, candidate)) break;
-    ahead = candidate;
+    cell = next(cell);
   }
-  return ahead;
+  return space_.Center(cell);
 }
 
 }  // namespace lcmslam

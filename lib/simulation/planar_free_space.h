@@ -24,7 +24,8 @@ class PlanarFreeSpace {
   class Guide {
    public:
     Guide(const PlanarFreeSpace& space, const Eigen::Vector2d& goal);
-    // A point on the way from `p`, at most reach_m away and in line of sight; `p` itself outside the region.
+    // A point on the way from `p` such that the straight line to it is free; beyond the next cell only as far as reach_m
+    // and while that line has a little room on both sides. `p` itself outside the region.
     Eigen::Vector2d Ahead(const Eigen::Vector2d& p, double reach_m) const;
 
    private:
