@@ -58,14 +58,14 @@ Vector2d PlanarFreeSpace::Center(int cell) const {
 }
 
 // The eight around the cell; a diagonal only where it cuts no corner.
-std::vector<PlanarFreeSpace::Neighbour> PlanarFreeSpace::FreeNeighbours(int cell) const {
+boost::container::static_vector<PlanarFreeSpace::Neighbour, 8> PlanarFreeSpace::FreeNeighbours(int cell) const {
   const int x = cell % width_;
   const int y = cell / width_;
   const auto is_free = [&](int dx, int dy) {
     if (x + dx < 0 || y + dy < 0 || x + dx >= width_ || y + dy >= height_) return false;
     return IsFree(cell + dy * width_ + dx);
   };
-  std::vector<Neighbour> neighbours;
+  boost::container::static_vector<Neighbour, 8> neighbours;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       if ((dx == 0 && dy == 0) || !is_free(dx, dy) || !is_free(dx, 0) || !is_free(0, dy)) continue;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 
 #include "simulation/planar_world.h"
 #include "simulation/random.h"
@@ -24,8 +25,8 @@ class PlanarFreeSpace {
   class Guide {
    public:
     Guide(const PlanarFreeSpace& space, const Eigen::Vector2d& goal);
-    // A point on the way from `p` such that the straight line to it is free; beyond the next cell only as far as reach_m
-    // and while that line has a little room on both sides. `p` itself outside the region.
+    // A point on the way from `p` such that the straight line to it is free; beyond the next cell only as far as
+    // reach_m and while that line has a little room on both sides. `p` itself outside the region.
     Eigen::Vector2d Ahead(const Eigen::Vector2d& p, double reach_m) const;
 
    private:
@@ -41,7 +42,7 @@ class PlanarFreeSpace {
   int CellAt(const Eigen::Vector2d& p) const;  // -1 outside the grid
   Eigen::Vector2d Center(int cell) const;
   bool IsFree(int cell) const { return slack_m_[static_cast<size_t>(cell)] >= 0.0; }
-  std::vector<Neighbour> FreeNeighbours(int cell) const;
+  boost::container::static_vector<Neighbour, 8> FreeNeighbours(int cell) const;
   bool LineOfSight(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const;
   void KeepLargestRegion();
 
