@@ -1,0 +1,94 @@
+#include "sdf2d/fusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lcmslam::sdf2d {
+namespace {
+
+using Eigen::Vector2d;
+
+// The tile of a vertex, created on demand; remembers the last one.
+class TileWriter {
+ public:
+  explicit TileWriter(SdfMap* map) : map_(*map) {}
+
+  SdfTile& TileOf(int32_t vertex_x, int32_t vertex_y) {
+    const int32_t tile_x = vertex_x >> SdfTile::kShift;
+    const int32_t tile_y = vertex_y >> SdfTile::kShift;
+    if (tile_ == nullptr || tile_->tile_x != tile_x || tile_->tile_y != tile_y) tile_ = &map_.Touch(tile_x, tile_y);
+    return *tile_;
+  }
+
+ private:
+  SdfMap& map_;
+  SdfTile* tile_ = nullptr;
+};
+
+bool Contradicts(float distance_m, float information, const VertexMeasurement& seen, const FusionOptions& options) {
+  const float difference = std::abs(seen.distance_m - distance_m);
+  if (difference < options.change_m) return false;
+  const float variance = 1.0F / information + 1.0F / seen.information;
+  return difference * difference > options.change_sigmas * options.change_sigmas * variance;
+}
+
+}  // namespace
+
+void Fuse(const ScanField& field, const FusionOptions& options, SdfMap* map) {
+  TileWriter writer(map);
+  for (const VertexMeasurement& seen : field.measurements()) {
+    SdfTile& tile = writer.TileOf(seen.x, seen.y);
+    const int i = SdfTile::IndexOf(seen.x, seen.y);
+    float& information = tile.information[i];
+    float& distance_m = tile.distance_m[i];
+    tile.revision = map->revision();
+    if (information <= 0.0F) {
+      distance_m = seen.distance_m;
+      information = seen.information;
+      continue;
+    }
+    if (Contradicts(distance_m, information, seen, options)) information *= static_cast<float>(options.change_keep);
+    const float total = information + seen.information;
+    distance_m += seen.information / total * (seen.distance_m - distance_m);
+    information = std::min(total, static_cast<float>(options.max_information));
+  }
+}
+
+void Carve(std::span<const Vector2d> p_body, const Vector2d& origin_body, const Pose2& T_map_body,
+           const NoiseModel& noise, int first, const FusionOptions& options, SdfMap* map) {
+  constexpr float kForgotten = 1.0F;  // 1/m^2; less information is none
+  const double cell_m = map->cell_m();
+  const auto behind_m = static_cast<float>(-cell_m);
+  const Vector2d origin = (T_map_body * origin_body) / cell_m;
+  TileWriter writer(map);
+  for (size_t i = first; i < p_body.size(); i += options.carve_every) {
+    const Vector2d end = (T_map_body * p_body[i]) / cell_m;
+    const double length = (end - origin).norm();
+    const double margin =
+        std::max(options.band_cells,
+                 std::min(options.band_sigmas * noise.Sigma(length * cell_m), options.max_band_m) / cell_m) +
+        1.0;
+    const int steps = static_cast<int>(length - margin);
+    const Vector2d step = (end - origin) / length;
+    Vector2d at = origin + Vector2d(0.5, 0.5);
+    for (int k = 0; k < steps; ++k, at += step) {
+      const auto x = static_cast<int32_t>(std::floor(at.x()));
+      const auto y = static_cast<int32_t>(std::floor(at.y()));
+      SdfTile& tile = writer.TileOf(x, y);
+      const int v = SdfTile::IndexOf(x, y);
+      if (tile.distance_m[v] < behind_m) {
+        tile.information[v] *= static_cast<float>(options.carve_keep);
+        if (tile.information[v] < kForgotten) {
+          tile.information[v] = 0.0F;
+          tile.distance_m[v] = std::numeric_limits<float>::quiet_NaN();
+        }
+        tile.revision = map->revision();
+      } else if (tile.seen_through[v] < 255) {
+        ++tile.seen_through[v];
+        tile.revision = map->revision();
+      }
+    }
+  }
+}
+
+}  // namespace lcmslam::sdf2d

@@ -1,0 +1,147 @@
+#include "sdf2d/pipeline.h"
+
+#include <algorithm>
+
+#include "sdf2d/fusion.h"
+#include "sdf2d/recovery.h"
+#include "sdf2d/surface.h"
+
+namespace lcmslam::sdf2d {
+
+Pipeline::Pipeline(const Options& options)
+    : options_(options),
+      map_(options.cell_m),
+      coarse_map_(options.coarse_cell_m),
+      motion_(options.motion, options.T_map_body_initial),
+      noise_(options.noise),
+      origin_body_(options.T_body_lidar.translation()) {}
+
+Result Pipeline::Process(const PlanarScan& scan) {
+  Result result{.utime = scan.utime, .T_map_body = motion_.state().T_map_body};
+  if (now_ms_) last_ms_ = now_ms_();
+  RestartClockIfItJumped(scan.utime);
+  std::vector<ScanPoint> points =
+      ReturnsInBody(scan, options_.T_body_lidar, options_.min_range_m, options_.max_range_m);
+  if (!Accepts(scan.utime, points)) return result;
+  if (!options_.deskew) std::ranges::for_each(points, [](ScanPoint& p) { p.dt_s = 0.0; });
+  noise_.Observe(points, origin_body_);
+  const MotionState prediction = motion_.Predict(scan.utime);
+  Charge(Stage::kPrepare, &result);
+
+  const Registration registration = Register(points, prediction, &result);
+  const MotionState& state = registration.align.state;
+  motion_.Correct(scan.utime, state);
+  if (registration.status != Status::kLost && !options_.localize_only) UpdateMap(points, state, &result);
+
+  result.status = registration.status;
+  result.T_map_body = state.T_map_body;
+  result.twist_body = state.twist_body;
+  result.covariance = state.PoseCovarianceInMap();
+  result.num_points = registration.align.points;
+  result.iterations = registration.align.iterations;
+  result.inlier_ratio = registration.align.InlierRatio();
+  result.residual_rms_m = registration.align.residual_rms_m;
+  result.range_sigma_m = noise_.Sigma(1.0);
+  result.unobservable = registration.align.UnobservableAxes();
+  return result;
+}
+
+Pipeline::Registration Pipeline::Register(std::span<const ScanPoint> points, const MotionState& prediction,
+                                          Result* result) {
+  if (map_.empty()) {
+    AlignResult begin;
+    begin.state = prediction;
+    begin.points = static_cast<int>(points.size());
+    return {begin, Status::kInitializing};
+  }
+  AlignResult align = Align(map_, points, origin_body_, noise_, prediction, options_.registration);
+  Charge(Stage::kRegister, result);
+
+  Status status = Status::kTracking;
+  const RecoveryOptions& recovery = options_.recovery;
+  if (!IsGood(align) || align.InlierRatio() < usual_inlier_ratio_ - recovery.suspicious_drop) {
+    const AlignResult wide =
+        AlignCoarseToFine(map_, coarse_map_, points, origin_body_, noise_, prediction, options_.registration);
+    if (wide.inliers > align.inliers) align = wide;
+  }
+  if (!IsGood(align)) {
+    const double widening =
+        std::min(recovery.search_m * std::exp2(scans_lost_), recovery.max_search_m) / recovery.search_m;
+    align = SearchAround(map_, coarse_map_, points, origin_body_, noise_, prediction, recovery.search_m * widening,
+                         std::min(recovery.search_rad * widening, 3.2), options_.registration);
+    status = Status::kRelocalized;
+  }
+  Charge(Stage::kRecover, result);
+
+  if (!IsGood(align)) {
+    ++scans_lost_;
+    align.state = prediction;
+    align.state.twist_body.setZero();
+    return {align, Status::kLost};
+  }
+  if (scans_lost_ > 0) status = Status::kRelocalized;
+  if (status == Status::kTracking && !align.unobservable.isZero()) status = Status::kDegenerate;
+  scans_lost_ = 0;
+  usual_inlier_ratio_ += 0.1 * (align.InlierRatio() - usual_inlier_ratio_);
+  return {align, status};
+}
+
+void Pipeline::UpdateMap(std::span<const ScanPoint> points, const MotionState& state, Result* result) {
+  std::vector<Eigen::Vector2d> p_body;
+  Deskew(points, state.twist_body, &p_body);
+  const std::vector<SurfaceLine> lines = ExtractSurface(p_body, origin_body_, noise_, options_.surface);
+  Charge(Stage::kExtract, result);
+
+  for (SdfMap* map : {&map_, &coarse_map_}) {
+    map->BeginRevision();
+    field_.Rasterize(lines, state.T_map_body, map->cell_m(), options_.fusion);
+    Fuse(field_, options_.fusion, map);
+  }
+  Charge(Stage::kFuse, result);
+
+  const int first = static_cast<int>(scans_mapped_ % options_.fusion.carve_every);
+  if (options_.fusion.carve) {
+    for (SdfMap* map : {&map_, &coarse_map_}) {
+      Carve(p_body, origin_body_, state.T_map_body, noise_, first, options_.fusion, map);
+    }
+  }
+  ++scans_mapped_;
+  Charge(Stage::kCarve, result);
+}
+
+bool Pipeline::IsGood(const AlignResult& align) const {
+  return align.status != AlignStatus::kTooFewPoints && align.matched >= options_.recovery.min_overlap * align.points &&
+         align.inliers >= options_.recovery.min_inlier_ratio * align.matched;
+}
+
+bool Pipeline::Accepts(int64_t utime, std::span<const ScanPoint> points) const {
+  if (static_cast<int>(points.size()) < options_.registration.min_points) return false;
+  return !motion_.started() || utime > motion_.utime();
+}
+
+void Pipeline::RestartClockIfItJumped(int64_t utime) {
+  const double back_s = 1e-6 * static_cast<double>(motion_.utime() - utime);
+  if (motion_.started() && back_s > options_.motion.max_gap_s) SetPose(motion_.state().T_map_body);
+}
+
+void Pipeline::Reset() {
+  std::function<double()> now_ms = std::move(now_ms_);
+  *this = Pipeline(options_);
+  now_ms_ = std::move(now_ms);
+}
+
+void Pipeline::SetPose(const Pose2& T_map_body) { motion_.Restart(T_map_body); }
+
+void Pipeline::SetMap(SdfMap map) {
+  options_.cell_m = map.cell_m();
+  map_ = std::move(map);
+}
+
+void Pipeline::Charge(Stage stage, Result* result) {
+  if (!now_ms_) return;
+  const double now = now_ms_();
+  result->stage_ms[static_cast<size_t>(stage)] += now - last_ms_;
+  last_ms_ = now;
+}
+
+}  // namespace lcmslam::sdf2d

@@ -1,0 +1,197 @@
+#include "sdf2d/registration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "sdf2d/sdf_reader.h"
+
+namespace lcmslam::sdf2d {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// The quadratic model of the scan's cost around a state. With a_i = d phi_i / d pose, the derivative by the twist is
+// dt_i a_i, so three 3x3 sums hold the whole 6x6 matrix.
+struct Linearization {
+  Matrix3d a_a = Matrix3d::Zero();      // sum w a a^T
+  Matrix3d dt_a_a = Matrix3d::Zero();   // sum w dt a a^T
+  Matrix3d dt2_a_a = Matrix3d::Zero();  // sum w dt^2 a a^T
+  Vector3d a_r = Vector3d::Zero();      // sum w a phi
+  Vector3d dt_a_r = Vector3d::Zero();   // sum w dt a phi
+  double cost = 0.0;                    // unmatched points cost as much as the worst inlier
+  double inlier_sum_m2 = 0.0;
+  double sum_weights = 0.0;
+  double sum_lever_m2 = 0.0;
+  int matched = 0;
+  int inliers = 0;
+};
+
+struct Problem {
+  const SdfMap& map;
+  std::span<const ScanPoint> points;
+  const std::vector<double>& range_variance;
+  Vector2d origin_body;
+  const RegistrationOptions& options;
+  bool has_times;
+};
+
+Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::span<const Vector2d> p_body) {
+  const RegistrationOptions& options = problem.options;
+  const double min_cos2 = options.min_cos_incidence * options.min_cos_incidence;
+  const double map_variance = options.map_sigma_m * options.map_sigma_m;
+  const double cost_cap = options.huber_sigmas * (2.0 * options.inlier_sigmas - options.huber_sigmas);
+  SdfReader reader(problem.map);
+  Linearization sum;
+  for (size_t i = 0; i < p_body.size(); ++i) {
+    const Vector2d& p = p_body[i];
+    const SdfReader::Sample sample = reader.At(T_map_body * p);
+    if (!sample.IsKnown()) {
+      sum.cost += cost_cap;
+      continue;
+    }
+    const Vector2d g(T_map_body.cos() * sample.gradient.x() + T_map_body.sin() * sample.gradient.y(),
+                     -T_map_body.sin() * sample.gradient.x() + T_map_body.cos() * sample.gradient.y());
+    const Vector2d beam = p - problem.origin_body;
+    const double along = g.dot(beam);
+    const double cos2 = along * along / (g.squaredNorm() * beam.squaredNorm() + 1e-12);
+    const double variance = problem.range_variance[i] * std::max(cos2, min_cos2) + map_variance;
+    const double sigmas = std::abs(sample.distance_m) / std::sqrt(variance);
+    const bool outer = sigmas > options.huber_sigmas;
+    const double w = (outer ? options.huber_sigmas / sigmas : 1.0) / variance;
+    sum.cost +=
+        outer ? std::min(options.huber_sigmas * (2.0 * sigmas - options.huber_sigmas), cost_cap) : sigmas * sigmas;
+
+    const Vector3d a(g.x(), g.y(), p.x() * g.y() - p.y() * g.x());
+    const Vector3d wa = w * a;
+    const Matrix3d waa = wa * a.transpose();
+    sum.a_a += waa;
+    sum.a_r += wa * sample.distance_m;
+    if (problem.has_times) {
+      const double dt = problem.points[i].dt_s;
+      sum.dt_a_a += dt * waa;
+      sum.dt2_a_a += (dt * dt) * waa;
+      sum.dt_a_r += (dt * sample.distance_m) * wa;
+    }
+    sum.sum_weights += w;
+    sum.sum_lever_m2 += w * p.squaredNorm();
+    ++sum.matched;
+    if (sigmas < options.inlier_sigmas) {
+      ++sum.inliers;
+      sum.inlier_sum_m2 += sample.distance_m * sample.distance_m;
+    }
+  }
+  return sum;
+}
+
+// The projector onto pose directions that fewer than min_eigenvalue of the beams (by weight) constrain. Rotation is
+// measured by the arc at the beams' rms distance, so that all three directions compare.
+Matrix3d Unobservable(const Linearization& scan, double min_eigenvalue) {
+  const double lever_m = std::sqrt(scan.sum_lever_m2 / scan.sum_weights) + 1e-9;
+  const Vector3d scale(1.0, 1.0, lever_m);
+  const Matrix3d to_arc = scale.cwiseInverse().asDiagonal();
+  const Matrix3d normalized = to_arc * scan.a_a * to_arc / scan.sum_weights;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(normalized);
+  Matrix3d projector = Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    if (eigen.eigenvalues()[i] >= min_eigenvalue) continue;
+    projector += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
+  }
+  return to_arc * projector * scale.asDiagonal();
+}
+
+}  // namespace
+
+std::array<bool, 3> AlignResult::UnobservableAxes() const {
+  const double c = state.T_map_body.cos(), s = state.T_map_body.sin();
+  const Matrix3d& held = unobservable;
+  const double along_x = Vector2d(c, -s).dot(held.topLeftCorner<2, 2>() * Vector2d(c, -s));
+  const double along_y = Vector2d(s, c).dot(held.topLeftCorner<2, 2>() * Vector2d(s, c));
+  return {along_x > 0.5, along_y > 0.5, held(2, 2) > 0.5};
+}
+
+AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Vector2d& origin_body,
+                  const NoiseModel& noise, const MotionState& prediction, const RegistrationOptions& options) {
+  std::vector<double> range_variance(points.size());
+  bool has_times = false;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double sigma = noise.Sigma(points[i].range_m);
+    range_variance[i] = sigma * sigma;
+    has_times = has_times || points[i].dt_s != 0.0;
+  }
+  const Problem problem{map, points, range_variance, origin_body, options, has_times};
+  const Matrix6d prior = prediction.covariance.ldlt().solve(Matrix6d::Identity());
+
+  AlignResult result;
+  result.points = static_cast<int>(points.size());
+  result.state = prediction;
+  std::vector<Vector2d> p_body;
+  Vector6d offset = Vector6d::Zero();  // from the prediction
+  Linearization best;
+  Vector6d best_offset = offset;
+  double best_cost = std::numeric_limits<double>::infinity();
+  double damping = 0.0;
+  Matrix6d H = prior;
+  const auto state_at = [&](const Vector6d& e) {
+    return MotionState{prediction.T_map_body * Pose2::Exp(e.head<3>()), prediction.twist_body + e.tail<3>(), {}};
+  };
+
+  for (result.iterations = 0; result.iterations < options.max_iterations; ++result.iterations) {
+    const MotionState state = state_at(offset);
+    if (has_times || result.iterations == 0) Deskew(points, state.twist_body, &p_body);
+    Linearization scan = Linearize(problem, state.T_map_body, p_body);
+    const double cost = scan.cost + offset.dot(prior * offset);
+    if (cost > best_cost * (1.0 + 1e-9)) {  // worse: shorter steps from the best state so far
+      damping = std::max(10.0 * damping, 1e-2);
+      if (damping > 1e3) break;
+    } else {
+      if (scan.matched < options.min_points) break;
+      result.unobservable = Unobservable(scan, options.min_eigenvalue);
+      best = scan;
+      best_cost = cost;
+      best_offset = offset;
+      damping *= 0.1;
+    }
+    Linearization used = best;
+    if (!result.unobservable.isZero()) {
+      const Matrix3d keep = Matrix3d::Identity() - result.unobservable;
+      used.a_a = keep.transpose() * used.a_a * keep;
+      used.dt_a_a = keep.transpose() * used.dt_a_a * keep;
+      used.dt2_a_a = keep.transpose() * used.dt2_a_a * keep;
+      used.a_r = keep.transpose() * used.a_r;
+      used.dt_a_r = keep.transpose() * used.dt_a_r;
+    }
+    H = prior;
+    H.topLeftCorner<3, 3>() += used.a_a;
+    H.topRightCorner<3, 3>() += used.dt_a_a;
+    H.bottomLeftCorner<3, 3>() += used.dt_a_a;
+    H.bottomRightCorner<3, 3>() += used.dt2_a_a;
+    Vector6d gradient = prior * best_offset;
+    gradient.head<3>() += used.a_r;
+    gradient.tail<3>() += used.dt_a_r;
+    Matrix6d damped = H;
+    damped.diagonal() *= 1.0 + damping;
+    const Vector6d step = -damped.ldlt().solve(gradient);
+    result.information = used.a_a;
+    offset = best_offset + step;
+    if (step.dot(H * step) < options.stop_sigmas * options.stop_sigmas) {
+      result.status = AlignStatus::kConverged;
+      best_offset = offset;
+      break;
+    }
+  }
+  if (best.matched < options.min_points) return result;
+  if (result.status != AlignStatus::kConverged) result.status = AlignStatus::kIterationLimit;
+  result.state = state_at(best_offset);
+  result.state.covariance = H.ldlt().solve(Matrix6d::Identity());
+  result.matched = best.matched;
+  result.inliers = best.inliers;
+  result.residual_rms_m = best.inliers > 0 ? std::sqrt(best.inlier_sum_m2 / best.inliers) : 0.0;
+  return result;
+}
+
+}  // namespace lcmslam::sdf2d

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lidar/deskew.h"
+#include "sdf2d/motion_model.h"
+#include "sdf2d/noise_model.h"
+#include "sdf2d/options.h"
+#include "sdf2d/sdf_map.h"
+
+namespace lcmslam::sdf2d {
+
+enum class AlignStatus { kConverged, kIterationLimit, kTooFewPoints };
+
+struct AlignResult {
+  AlignStatus status = AlignStatus::kTooFewPoints;
+  MotionState state;                                      // the prediction where too few points matched
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of the pose from this scan alone, body frame
+  Eigen::Matrix3d unobservable =
+      Eigen::Matrix3d::Zero();  // projector onto pose directions held by prediction, body frame
+  int iterations = 0;
+  int points = 0;   // offered
+  int matched = 0;  // fell on mapped surface
+  int inliers = 0;
+  double residual_rms_m = 0.0;  // over inliers
+
+  // Whether the held direction nearest to each map axis (x, y, yaw) exists.
+  std::array<bool, 3> UnobservableAxes() const;
+  double InlierRatio() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
+};
+
+// The most probable pose and velocity, given the prediction and a scan in a signed distance map phi:
+//   argmin |e|^2_{P^-1} + sum_i rho(phi(T Exp(v dt_i) p_i)^2 / (sigma_i^2 cos(incidence_i)^2 + sigma_map^2)),
+// an iterated Kalman update by Gauss-Newton on SE(2) x R^3 with Levenberg-Marquardt damping and Huber's rho.
+// Directions that the scan does not determine stay at the prediction. Pure.
+[[nodiscard]] AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points,
+                                const Eigen::Vector2d& origin_body, const NoiseModel& noise,
+                                const MotionState& prediction, const RegistrationOptions& options);
+
+}  // namespace lcmslam::sdf2d

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <unordered_map>
+
+#include <Eigen/Core>
+
+namespace lcmslam::sdf2d {
+
+// A square of vertices. Vertex (x, y) of the tile is vertex (tile_x * kSide + x, tile_y * kSide + y) of the map.
+struct SdfTile {
+  static constexpr int kShift = 5;
+  static constexpr int kSide = 1 << kShift;
+  static constexpr int kVertices = kSide * kSide;
+
+  int32_t tile_x = 0;
+  int32_t tile_y = 0;
+  uint64_t revision = 0;                          // of the map when the tile last changed
+  std::array<float, kVertices> distance_m;        // signed, > 0 on the free side; NaN: no surface near; [y * kSide + x]
+  std::array<float, kVertices> information{};     // 1/m^2, of the distance; 0: no surface near
+  std::array<uint8_t, kVertices> seen_through{};  // beams that passed, saturating
+
+  // Of a vertex given by its index in the map.
+  static constexpr int IndexOf(int32_t vertex_x, int32_t vertex_y) {
+    return ((vertex_y & (kSide - 1)) << kShift) | (vertex_x & (kSide - 1));
+  }
+
+  SdfTile(int32_t x, int32_t y) : tile_x(x), tile_y(y) { distance_m.fill(std::numeric_limits<float>::quiet_NaN()); }
+};
+
+// An unbounded map of signed distances to the nearest surface, sampled at vertices `cell_m` apart; vertex (i, j) lies
+// at (i, j) * cell_m in the map frame. Vertices farther than a band from every surface hold NaN. A value: copies are
+// independent. Reading from several threads is safe while nobody writes.
+class SdfMap {
+ public:
+  explicit SdfMap(double cell_m) : cell_m_(cell_m) {}
+
+  double cell_m() const { return cell_m_; }
+  bool empty() const { return tiles_.empty(); }
+  const std::deque<SdfTile>& tiles() const { return tiles_; }  // in the order of their creation
+
+  // Grows with every BeginRevision; tiles changed since carry a larger revision than the one remembered then.
+  uint64_t revision() const { return revision_; }
+  void BeginRevision() { ++revision_; }
+
+  // nullptr where there is none.
+  const SdfTile* Find(int32_t tile_x, int32_t tile_y) const;
+  SdfTile* Find(int32_t tile_x, int32_t tile_y);
+  // Creates it where there is none. References stay valid.
+  SdfTile& Touch(int32_t tile_x, int32_t tile_y);
+
+  // Of the vertex, NaN where unknown. Slow; registration reads through SdfReader.
+  float DistanceAt(int32_t vertex_x, int32_t vertex_y) const;
+
+ private:
+  double cell_m_;
+  uint64_t revision_ = 0;
+  std::deque<SdfTile> tiles_;
+  std::unordered_map<uint64_t, uint32_t> by_index_;  // packed tile index -> position in tiles_
+};
+
+}  // namespace lcmslam::sdf2d
