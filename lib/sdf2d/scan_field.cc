@@ -14,9 +14,10 @@ void ClipInterval(double slope, double intercept, double min, double max, double
     if (intercept < min || intercept > max) *high = *low - 1.0;
     return;
   }
-  const auto [a, b] = std::minmax((min - intercept) / slope, (max - intercept) / slope);
-  *low = std::max(*low, a);
-  *high = std::min(*high, b);
+  const double a = (min - intercept) / slope;
+  const double b = (max - intercept) / slope;
+  *low = std::max(*low, std::min(a, b));
+  *high = std::min(*high, std::max(a, b));
 }
 
 }  // namespace
