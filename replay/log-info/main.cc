@@ -1,0 +1,98 @@
+// log-info LOG: what an LCM log holds, by channel.
+
+#include <map>
+#include <set>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <lcmslam/evaluation_t.hpp>
+#include <lcmslam/occupancy_grid_t.hpp>
+#include <lcmslam/planar_lidar_t.hpp>
+#include <lcmslam/planar_scan_t.hpp>
+#include <lcmslam/pose_t.hpp>
+#include <lcmslam/pose_xyt_t.hpp>
+#include <lcmslam/rigid_transform_t.hpp>
+#include <lcmslam/sdf_tile_t.hpp>
+#include <lcmslam/service_status_t.hpp>
+#include <lcmslam/slam_command_t.hpp>
+#include <lcmslam/slam_diagnostics_t.hpp>
+
+#include "bus/log_reader.h"
+#include "common/run_service.h"
+
+namespace lcmslam {
+namespace {
+
+struct Channel {
+  int64_t messages = 0;
+  int64_t bytes = 0;
+  int64_t first_utime = 0, last_utime = 0;  // us; log time
+  std::set<int64_t> fingerprints;
+};
+
+struct Contents {
+  std::map<std::string, Channel> channels;
+  std::string damage;
+};
+
+template <class... Messages>
+std::map<int64_t, std::string> NamesOf() {
+  return {{Messages::getHash(), Messages::getTypeName()}...};
+}
+
+// Types of other packages with the same fields go by the same name.
+std::string TypeName(int64_t fingerprint) {
+  static const std::map<int64_t, std::string> names =
+      NamesOf<evaluation_t, occupancy_grid_t, planar_lidar_t, planar_scan_t, pose_t, pose_xyt_t, rigid_transform_t,
+              sdf_tile_t, service_status_t, slam_command_t, slam_diagnostics_t>();
+  const auto known = names.find(fingerprint);
+  return known != names.end() ? known->second : fmt::format("{:016x}", static_cast<uint64_t>(fingerprint));
+}
+
+Contents Read(const std::string& path) {
+  LogReader reader(path);
+  Contents contents;
+  for (Event event; reader.Next(event);) {
+    Channel& channel = contents.channels[event.channel];
+    if (channel.messages++ == 0) channel.first_utime = event.utime;
+    channel.last_utime = event.utime;
+    channel.bytes += static_cast<int64_t>(event.data.size());
+    channel.fingerprints.insert(Fingerprint(event.data));
+  }
+  contents.damage = reader.DamageReport();
+  return contents;
+}
+
+void Print(const Contents& contents) {
+  fmt::print("{:<24} {:<20} {:>9} {:>10} {:>9} {:>11}\n", "channel", "type", "messages", "seconds", "hertz",
+             "mean bytes");
+  for (const auto& [name, channel] : contents.channels) {
+    const double seconds = static_cast<double>(channel.last_utime - channel.first_utime) * 1e-6;
+    const double hertz = seconds > 0.0 ? static_cast<double>(channel.messages - 1) / seconds : 0.0;
+    const std::string type = channel.fingerprints.size() == 1 ? TypeName(*channel.fingerprints.begin()) : "(several)";
+    fmt::print("{:<24} {:<20} {:>9} {:>10.1f} {:>9.2f} {:>11}\n", name, type, channel.messages, seconds, hertz,
+               channel.bytes / channel.messages);
+  }
+  if (!contents.damage.empty()) fmt::print(stderr, "{}\n", contents.damage);
+}
+
+}  // namespace
+}  // namespace lcmslam
+
+int main(int argc, char** argv) {
+  CLI::App app("What an LCM log holds, by channel", "log-info");
+  std::string path, count;
+  app.add_option("LOG", path, "LCM log")->required();
+  app.add_option("--count", count, "print only the number of messages on this channel");
+  CLI11_PARSE(app, argc, argv);
+  return lcmslam::RunCommand("log-info", [&] {
+    const lcmslam::Contents contents = lcmslam::Read(path);
+    if (count.empty()) {
+      lcmslam::Print(contents);
+    } else {
+      const auto channel = contents.channels.find(count);
+      fmt::print("{}\n", channel == contents.channels.end() ? 0 : channel->second.messages);
+    }
+    return lcmslam::ExitCode::kOk;
+  });
+}
