@@ -6,6 +6,7 @@
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_01.hpp>
 
+#include "simulation/cramer_rao.h"
 #include "simulation/random.h"
 
 namespace lcmslam {
@@ -15,40 +16,60 @@ using Eigen::AngleAxisd;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Lidar motion around the start of one firing cycle, to first order in time: exact to nanometres within a cycle.
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
+// The lidar around the start of one firing cycle, to first order in time: exact to nanometres within a cycle. World
+// frame.
 struct CycleMotion {
-  Vector3d origin;                  // of the lidar, world frame
-  Vector3d velocity;                // of the lidar, world frame
-  Matrix3d R_world_lidar;           //
-  Vector3d angular_velocity_radps;  // of the lidar, world frame
+  Vector3d origin = Vector3d::Zero();
+  Matrix3d R_world_lidar = Matrix3d::Identity();
+  Vector3d velocity_mps = Vector3d::Zero();
+  Vector3d angular_velocity_radps = Vector3d::Zero();
 };
 
-CycleMotion MotionOf(const BodyState& body, const Pose3& T_body_lidar) {
+CycleMotion Moving(const BodyState& body, const Pose3& T_body_lidar) {
   const Pose3 T_world_lidar = body.T_world_body * T_body_lidar;
-  const Vector3d rate = body.T_world_body.rotation * body.angular_velocity_radps;
+  const Vector3d rate_radps = body.T_world_body.rotation * body.angular_velocity_radps;
   const Vector3d lever = body.T_world_body.rotation * T_body_lidar.translation;
-  return {T_world_lidar.translation, body.velocity_mps + rate.cross(lever), T_world_lidar.rotation.toRotationMatrix(),
-          rate};
+  return {.origin = T_world_lidar.translation,
+          .R_world_lidar = T_world_lidar.rotation.toRotationMatrix(),
+          .velocity_mps = body.velocity_mps + rate_radps.cross(lever),
+          .angular_velocity_radps = rate_radps};
 }
 
-CycleMotion AtRest(const Pose3& T_world_lidar) {
-  return {T_world_lidar.translation, Vector3d::Zero(), T_world_lidar.rotation.toRotationMatrix(), Vector3d::Zero()};
+CycleMotion Still(const BodyState& body, const Pose3& T_body_lidar) {
+  const Pose3 T_world_lidar = body.T_world_body * T_body_lidar;
+  return {.origin = T_world_lidar.translation, .R_world_lidar = T_world_lidar.rotation.toRotationMatrix()};
+}
+
+// The first cycle that starts in turn `index` or later.
+int64_t FirstCycle(const MultiLineLidarModel& model, int index) {
+  return static_cast<int64_t>(std::ceil(1e6 * model.turn_s * index / model.firing_cycle_us - 1e-9));
 }
 
 // Beam directions at the start of a cycle that begins at azimuth 0, each already turned on by its own delay.
 std::vector<Vector3d> BeamDirections(const MultiLineLidarModel& model) {
   std::vector<Vector3d> directions;
   for (const Laser& laser : model.lasers) {
-    const double azimuth_rad = laser.azimuth_rad - 2.0 * std::numbers::pi * 1e-6 * laser.fire_delay_us / model.turn_s;
+    const double azimuth_rad = laser.azimuth_rad - 1e-6 * kTurn_rad * laser.fire_delay_us / model.turn_s;
     directions.emplace_back(std::cos(laser.elevation_rad) * std::cos(azimuth_rad),
                             std::cos(laser.elevation_rad) * std::sin(azimuth_rad), std::sin(laser.elevation_rad));
   }
   return directions;
 }
 
-// The first cycle that starts in turn `index` or later.
-int64_t FirstCycle(const MultiLineLidarModel& model, int index) {
-  return static_cast<int64_t>(std::ceil(1e6 * model.turn_s * index / model.firing_cycle_us - 1e-9));
+// The rays of one cycle.
+void Aim(const MultiLineLidarModel& model, const std::vector<Vector3d>& head_directions, const Matrix3d& R_lidar_head,
+         const CycleMotion& lidar, std::vector<SpatialRay>& rays) {
+  const Matrix3d R_world_head = lidar.R_world_lidar * R_lidar_head;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const double delay_s = 1e-6 * model.lasers[i].fire_delay_us;
+    const Vector3d direction = R_world_head * head_directions[i];
+    rays[i].origin = (lidar.origin + delay_s * lidar.velocity_mps).cast<float>();
+    rays[i].direction = (direction + delay_s * lidar.angular_velocity_radps.cross(direction)).cast<float>();
+  }
 }
 
 // Range along the beam and intensity as the sensor measures them; noise and dropout are drawn for every shot, so that
@@ -85,6 +106,16 @@ class Receiver {
   boost::random::uniform_01<double> uniform_;
 };
 
+// The derivative of a range by the pose of the body (translation, then rotation about the body's origin; world axes).
+Vector6d RangeJacobian(const SpatialRay& ray, const SpatialHit& hit, const Vector3d& p_world_body) {
+  const Vector3d normal = hit.normal.cast<double>();
+  const Vector3d direction = ray.direction.cast<double>();
+  const Vector3d lever = ray.origin.cast<double>() + hit.range_m * direction - p_world_body;
+  Vector6d jacobian;
+  jacobian << normal, lever.cross(normal);
+  return -jacobian / normal.dot(direction);
+}
+
 }  // namespace
 
 std::string MultiLineLidarOptions::Validate() const {
@@ -95,49 +126,50 @@ std::string MultiLineLidarOptions::Validate() const {
   return "";
 }
 
-Sweep SimulateSweep(const SpatialWorld& world, const SpatialMotion& motion, int index,
-                    const MultiLineLidarOptions& options, uint64_t seed) {
+SimulatedSweep SimulateSweep(const SpatialWorld& world, const SpatialMotion& motion, int index,
+                             const MultiLineLidarOptions& options, uint64_t seed) {
   const MultiLineLidarModel& model = options.model;
-  const std::vector<Vector3d> directions = BeamDirections(model);
+  const std::vector<Vector3d> head_directions = BeamDirections(model);
   const int64_t first_cycle = FirstCycle(model, index);
   const int64_t end_cycle = FirstCycle(model, index + 1);
   const double last_shot_us =
       static_cast<double>(end_cycle - 1) * model.firing_cycle_us + model.lasers.back().fire_delay_us;
-  const CycleMotion at_end = AtRest(motion.PoseAt(1e-6 * last_shot_us) * options.T_body_lidar);
+  const BodyState body_at_end = motion.StateAt(1e-6 * last_shot_us);
 
-  Sweep sweep{.utime = std::llround(last_shot_us), .points = {}};
-  sweep.points.reserve(static_cast<size_t>(end_cycle - first_cycle) * model.lasers.size());
+  SimulatedSweep result;
+  result.sweep.utime = std::llround(last_shot_us);
+  result.sweep.points.reserve(static_cast<size_t>(end_cycle - first_cycle) * model.lasers.size());
+  Receiver receiver(options, seed, index);
+  Matrix6d information = Matrix6d::Zero();  // for a range noise of 1 m
   std::vector<SpatialRay> rays(model.lasers.size());
   std::vector<SpatialHit> hits(model.lasers.size());
-  Receiver receiver(options, seed, index);
   for (int64_t cycle = first_cycle; cycle < end_cycle; ++cycle) {
     const double cycle_us = static_cast<double>(cycle) * model.firing_cycle_us;
-    const CycleMotion lidar =
-        options.motion_distortion ? MotionOf(motion.StateAt(1e-6 * cycle_us), options.T_body_lidar) : at_end;
-    const Matrix3d R_lidar_head =
-        AngleAxisd(-2.0 * std::numbers::pi * 1e-6 * cycle_us / model.turn_s, Vector3d::UnitZ()).toRotationMatrix();
-    const Matrix3d R_world_head = lidar.R_world_lidar * R_lidar_head;
-    for (size_t i = 0; i < rays.size(); ++i) {
-      const double delay_s = 1e-6 * model.lasers[i].fire_delay_us;
-      const Vector3d direction = R_world_head * directions[i];
-      rays[i].origin = (lidar.origin + delay_s * lidar.velocity).cast<float>();
-      rays[i].direction = (direction + delay_s * lidar.angular_velocity_radps.cross(direction)).cast<float>();
-    }
+    const CycleMotion lidar = options.motion_distortion ? Moving(motion.StateAt(1e-6 * cycle_us), options.T_body_lidar)
+                                                        : Still(body_at_end, options.T_body_lidar);
+    const double azimuth_rad = -1e-6 * kTurn_rad * cycle_us / model.turn_s;
+    const Matrix3d R_lidar_head = AngleAxisd(azimuth_rad, Vector3d::UnitZ()).toRotationMatrix();
+    Aim(model, head_directions, R_lidar_head, lidar, rays);
     world.CastRays(rays, hits);
     for (size_t i = 0; i < rays.size(); ++i) {
       const Receiver::Echo echo = receiver.Receive(rays[i], hits[i]);
       if (!echo.seen) continue;
-      const Eigen::Vector3f p_lidar = (echo.range_m * (R_lidar_head * directions[i])).cast<float>();
+      const Eigen::Vector3f p_lidar = (echo.range_m * (R_lidar_head * head_directions[i])).cast<float>();
       const int64_t shot_utime = std::llround(cycle_us + model.lasers[i].fire_delay_us);
-      sweep.points.push_back({.x = p_lidar.x(),
-                              .y = p_lidar.y(),
-                              .z = p_lidar.z(),
-                              .intensity = static_cast<float>(echo.intensity),
-                              .ring = model.lasers[i].ring,
-                              .dt_us = options.motion_distortion ? static_cast<int32_t>(shot_utime - sweep.utime) : 0});
+      const int64_t dt_us = options.motion_distortion ? shot_utime - result.sweep.utime : 0;
+      result.sweep.points.push_back({.x = p_lidar.x(),
+                                     .y = p_lidar.y(),
+                                     .z = p_lidar.z(),
+                                     .intensity = static_cast<float>(echo.intensity),
+                                     .ring = model.lasers[i].ring,
+                                     .dt_us = static_cast<int32_t>(dt_us)});
+      const Vector6d jacobian = RangeJacobian(rays[i], hits[i], body_at_end.T_world_body.translation);
+      information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian);
     }
   }
-  return sweep;
+  result.bound = CramerRaoBound<6>(information.selfadjointView<Eigen::Lower>());
+  if (result.bound) *result.bound *= options.range_sigma_m * options.range_sigma_m;
+  return result;
 }
 
 }  // namespace lcmslam

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
 #include <boost/random/normal_distribution.hpp>
 
 #include "geometry/angles.h"
+#include "simulation/cramer_rao.h"
 
 namespace lcmslam {
 namespace {
@@ -16,7 +16,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr double kWorstConditioning = 1e-9;  // smallest over largest eigenvalue of an information that fixes the pose
 
 // A sector of `num_beams` beams symmetric about x.
 PlanarLidarModel Sector(int num_beams, double step_deg, double turn_s, double min_range_m, double max_range_m) {
@@ -44,13 +43,6 @@ PlanarLidarModel Rplidar(double samples_per_s, double turn_s) {
 Vector3d RangeJacobian(const SurfaceHit& hit, const Vector2d& direction, const Vector2d& hit_from_body) {
   const double turning = hit.normal.y() * hit_from_body.x() - hit.normal.x() * hit_from_body.y();
   return -Vector3d(hit.normal.x(), hit.normal.y(), turning) / hit.normal.dot(direction);
-}
-
-std::optional<Matrix3d> Invert(const Matrix3d& information) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(information);
-  const Vector3d& eigenvalues = solver.eigenvalues();  // ascending
-  if (!(eigenvalues[0] > kWorstConditioning * eigenvalues[2])) return std::nullopt;
-  return solver.eigenvectors() * eigenvalues.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
 }
 
 }  // namespace
@@ -124,7 +116,7 @@ SimulatedScan SimulateScan(const PlanarWorld& world, const PoseAtTime& T_world_b
     const Vector3d jacobian = RangeJacobian(*hit, direction, p_world_hit - T_world_body_end.translation()) / sigma_m;
     information += jacobian * jacobian.transpose();
   }
-  result.bound = exact ? Matrix3d::Zero() : Invert(information);
+  result.bound = exact ? Matrix3d::Zero() : CramerRaoBound(information);
   return result;
 }
 

@@ -18,7 +18,6 @@ using Eigen::Vector3d;
 constexpr double kKnotInterval_s = 0.75;
 constexpr double kMinSpeedShare = 0.65;
 constexpr int kKnotsPerCommand = 2;  // a wanted turn rate or tilt holds for 1.5 s
-constexpr double kGravity_mps2 = 9.80665;
 // Of the turn rate. With |tilt| <= kMaxTilt_rad, |w|^2 <= yaw'^2 + pitch'^2 + roll'^2 + 2 |yaw' roll' sin(pitch)| keeps
 // the limit.
 constexpr double kYawShare = 0.8;

@@ -9,6 +9,7 @@ std::string SpatialEpisodeOptions::Validate() const {
   if (!(duration_s > 0.0) || duration_s > 1e6) return "duration_s: must be in (0, 1e6]";
   if (const std::string error = lidar.Validate(); !error.empty()) return "lidar." + error;
   if (const std::string error = carrier.Validate(); !error.empty()) return "carrier." + error;
+  if (const std::string error = imu.Validate(); !error.empty()) return "imu." + error;
   return "";
 }
 
@@ -20,17 +21,20 @@ std::optional<SpatialEpisode> SpatialEpisode::Create(SpatialWorld world, const S
 }
 
 SpatialEpisode::SpatialEpisode(SpatialWorld world, SpatialMotion motion, const SpatialEpisodeOptions& options)
-    : world_(std::move(world)), motion_(std::move(motion)), options_(options) {}
+    : world_(std::move(world)),
+      motion_(std::move(motion)),
+      options_(options),
+      imu_(SimulateImu(motion_, options.start_utime, options.imu, options.seed)) {}
 
 int SpatialEpisode::num_frames() const {
   return static_cast<int>(std::floor(options_.duration_s / options_.lidar.model.turn_s + 1e-9));
 }
 
 SpatialFrame SpatialEpisode::Frame(int i) const {
-  Sweep sweep = SimulateSweep(world_, motion_, i, options_.lidar, options_.seed);
-  sweep.utime += options_.start_utime;
-  const Pose3 T_world_body = TrueStateAt(sweep.utime).T_world_body;
-  return {std::move(sweep), T_world_body};
+  SimulatedSweep simulated = SimulateSweep(world_, motion_, i, options_.lidar, options_.seed);
+  simulated.sweep.utime += options_.start_utime;
+  const Pose3 T_world_body = TrueStateAt(simulated.sweep.utime).T_world_body;
+  return {std::move(simulated.sweep), T_world_body, simulated.bound};
 }
 
 BodyState SpatialEpisode::TrueStateAt(int64_t utime) const {

@@ -3,9 +3,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/pose3.h"
+#include "lidar/imu_sample.h"
 #include "lidar/sweep.h"
+#include "simulation/imu.h"
 #include "simulation/multi_line_lidar.h"
 #include "simulation/spatial_carrier.h"
 #include "simulation/spatial_motion.h"
@@ -19,13 +22,15 @@ struct SpatialEpisodeOptions {
   int64_t start_utime = 1'000'000;  // us; the lidar starts to fire
   MultiLineLidarOptions lidar = {};
   SpatialCarrierOptions carrier = {};
+  ImuOptions imu = {};
 
   std::string Validate() const;
 };
 
 struct SpatialFrame {
   Sweep sweep;
-  Pose3 T_world_body;  // at sweep.utime
+  Pose3 T_world_body;             // at sweep.utime
+  std::optional<Matrix6d> bound;  // Cramer-Rao, see SimulatedSweep
 };
 
 // A seeded journey of a multi-line lidar through a world. Same world and options, same bytes.
@@ -44,6 +49,7 @@ class SpatialEpisode {
 
   const SpatialWorld& world() const { return world_; }
   const SpatialMotion& motion() const { return motion_; }
+  const std::vector<ImuSample>& imu() const { return imu_; }
   const SpatialEpisodeOptions& options() const { return options_; }
 
  private:
@@ -52,6 +58,7 @@ class SpatialEpisode {
   SpatialWorld world_;
   SpatialMotion motion_;  // its time 0 is start_utime
   SpatialEpisodeOptions options_;
+  std::vector<ImuSample> imu_;
 };
 
 }  // namespace lcmslam

@@ -8,6 +8,8 @@
 
 namespace lcmslam {
 
+inline constexpr double kGravity_mps2 = 9.80665;  // along -z of the world
+
 // Where the body is and how it moves.
 struct BodyState {
   Pose3 T_world_body;

@@ -1,6 +1,7 @@
 #include "simulation/multi_line_lidar.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -53,7 +54,7 @@ TEST(SimulateSweep, EachPointIsSeenFromThePoseOfItsTime) {
   for (const std::string_view name : kNames) {
     SCOPED_TRACE(name);
     const MultiLineLidarOptions options = Exact(MultiLineLidarByName(name));
-    const Sweep sweep = SimulateSweep(world, motion, 7, options, 1);
+    const Sweep sweep = SimulateSweep(world, motion, 7, options, 1).sweep;
     ASSERT_GT(sweep.points.size(), 20'000u);
     double worst_m = 0.0;
     double worst_without_deskew_m = 0.0;
@@ -75,7 +76,7 @@ TEST(SimulateSweep, WithoutDistortionAllPointsAreSeenFromTheEnd) {
   const SpatialMotion motion = WildMotion();
   MultiLineLidarOptions options = Exact(VelodyneVlp16());
   options.motion_distortion = false;
-  const Sweep sweep = SimulateSweep(world, motion, 7, options, 1);
+  const Sweep sweep = SimulateSweep(world, motion, 7, options, 1).sweep;
   const Pose3 T_world_lidar = motion.PoseAt(1e-6 * static_cast<double>(sweep.utime)) * options.T_body_lidar;
   ASSERT_GT(sweep.points.size(), 20'000u);
   for (const SweepPoint& p : sweep.points) {
@@ -90,7 +91,7 @@ TEST(SimulateSweep, BeamsPointWhereTheHeadLooks) {
   for (const std::string_view name : {"vlp16", "hdl32e", "hdl64e"}) {  // the OS1 staggers its beams
     SCOPED_TRACE(name);
     MultiLineLidarOptions options{.model = MultiLineLidarByName(name), .range_sigma_m = 0.0};
-    const Sweep sweep = SimulateSweep(world, StandingStill(), 3, options, 1);
+    const Sweep sweep = SimulateSweep(world, StandingStill(), 3, options, 1).sweep;
     int32_t last_dt_us = INT32_MIN;
     for (const SweepPoint& p : sweep.points) {
       const auto laser = std::ranges::find(options.model.lasers, p.ring, &Laser::ring);
@@ -110,7 +111,7 @@ TEST(SimulateSweep, SweepsFollowWithoutGapOrOverlap) {
   size_t shots = 0;
   int64_t last_utime = -56;
   for (int i = 0; i < 20; ++i) {
-    const Sweep sweep = SimulateSweep(world, StandingStill(), i, options, 1);
+    const Sweep sweep = SimulateSweep(world, StandingStill(), i, options, 1).sweep;
     EXPECT_NEAR(static_cast<double>(sweep.utime + sweep.points.front().dt_us - last_utime), 55.296 - 15 * 2.304,
                 1.0 + (i == 0 ? 40 : 0));
     last_utime = sweep.utime;
@@ -123,8 +124,8 @@ TEST(SimulateSweep, NoiseIsAlongTheBeam) {
   const SpatialWorld world = BareRoomWorld();
   const MultiLineLidarOptions exact{.range_sigma_m = 0.0};
   const MultiLineLidarOptions noisy{.range_sigma_m = 0.05};
-  const Sweep truth = SimulateSweep(world, WildMotion(), 2, exact, 5);
-  const Sweep sweep = SimulateSweep(world, WildMotion(), 2, noisy, 5);
+  const Sweep truth = SimulateSweep(world, WildMotion(), 2, exact, 5).sweep;
+  const Sweep sweep = SimulateSweep(world, WildMotion(), 2, noisy, 5).sweep;
   ASSERT_EQ(sweep.points.size(), truth.points.size());
   double sum = 0.0, squares = 0.0;
   for (size_t i = 0; i < truth.points.size(); ++i) {
@@ -142,7 +143,7 @@ TEST(SimulateSweep, NoiseDependsOnSeedAndSweepOnly) {
   const SpatialWorld world = BareRoomWorld();
   const MultiLineLidarOptions options;
   const auto first_range = [&](int index, uint64_t seed) {
-    return Position(SimulateSweep(world, StandingStill(), index, options, seed).points[0]).norm();
+    return Position(SimulateSweep(world, StandingStill(), index, options, seed).sweep.points[0]).norm();
   };
   EXPECT_EQ(first_range(2, 1), first_range(2, 1));
   const std::set<double> ranges = {first_range(0, 1), first_range(1, 1), first_range(0, 2), first_range(1, 2)};
@@ -151,8 +152,8 @@ TEST(SimulateSweep, NoiseDependsOnSeedAndSweepOnly) {
 
 TEST(SimulateSweep, DropoutsLeaveTheOtherPointsAlone) {
   const SpatialWorld world = BareRoomWorld();
-  const Sweep full = SimulateSweep(world, WildMotion(), 0, {}, 1);
-  const Sweep thin = SimulateSweep(world, WildMotion(), 0, {.dropout_probability = 0.2}, 1);
+  const Sweep full = SimulateSweep(world, WildMotion(), 0, {}, 1).sweep;
+  const Sweep thin = SimulateSweep(world, WildMotion(), 0, {.dropout_probability = 0.2}, 1).sweep;
   const double n = static_cast<double>(full.points.size());
   EXPECT_NEAR(static_cast<double>(thin.points.size()), 0.8 * n, 4.0 * std::sqrt(0.16 * n));
   auto next = full.points.begin();
@@ -162,7 +163,7 @@ TEST(SimulateSweep, DropoutsLeaveTheOtherPointsAlone) {
     });
     ASSERT_NE(next, full.points.end());
   }
-  EXPECT_TRUE(SimulateSweep(world, WildMotion(), 0, {.dropout_probability = 1.0}, 1).points.empty());
+  EXPECT_TRUE(SimulateSweep(world, WildMotion(), 0, {.dropout_probability = 1.0}, 1).sweep.points.empty());
 }
 
 // A plate at 4 m, seen at a right angle or slanted, dark or bright: the signal falls with cos(incidence) *
@@ -175,7 +176,7 @@ TEST(SimulateSweep, WeakEchoesAreLost) {
     plate.AddQuad({0, -0.2, -0.02}, {0, 0.2, -0.02}, {0, 0.2, 0.02}, {0, -0.2, 0.02});
     const SpatialWorld world({{Transform(upright, plate), reflectivity}}, Vector3d::Zero());
     MultiLineLidarModel model{.lasers = {Laser{}}, .firing_cycle_us = 50.0, .min_range_m = 1.0, .max_range_m = 6.0};
-    return SimulateSweep(world, StandingStill(), 0, {.model = model, .range_sigma_m = 0.0}, 1).points;
+    return SimulateSweep(world, StandingStill(), 0, {.model = model, .range_sigma_m = 0.0}, 1).sweep.points;
   };
   ASSERT_FALSE(returns(4.0, 0.0, 1.0F).empty());
   EXPECT_NEAR(returns(4.0, 0.0, 1.0F).front().intensity, 255.0F, 0.5F);
@@ -185,6 +186,60 @@ TEST(SimulateSweep, WeakEchoesAreLost) {
   EXPECT_NEAR(returns(4.0, 60.0, 1.0F).front().intensity, 127.5F, 8.0F);
   EXPECT_TRUE(returns(4.0, 70.0, 1.0F).empty()) << "6 sqrt(0.34) = 3.5 m";
   EXPECT_TRUE(returns(4.0, 0.0, 0.4F).empty()) << "6 sqrt(0.4) = 3.8 m";
+}
+
+// The bound's information from ranges cast again at slightly other poses.
+TEST(SimulateSweep, BoundAsFromNumericDerivatives) {
+  const SpatialWorld world = BareRoomWorld();
+  const SpatialMotion motion = WildMotion();
+  MultiLineLidarOptions options = Exact(VelodyneVlp16());
+  options.motion_distortion = false;
+  const Sweep sweep = SimulateSweep(world, motion, 3, options, 1).sweep;
+  const Pose3 T_world_body = motion.PoseAt(1e-6 * static_cast<double>(sweep.utime));
+  const auto ranges_from = [&](const Pose3& T_world_moved) {
+    std::vector<SpatialRay> rays;
+    const Pose3 T_world_lidar = T_world_moved * options.T_body_lidar;
+    for (const SweepPoint& p : sweep.points) {
+      const Vector3d direction = T_world_lidar.rotation * Position(p).normalized();
+      rays.push_back({T_world_lidar.translation.cast<float>(), direction.cast<float>()});
+    }
+    std::vector<SpatialHit> hits(rays.size());
+    world.CastRays(rays, hits);
+    return hits;
+  };
+  constexpr double kStep = 2e-3;
+  Eigen::MatrixXd jacobian(sweep.points.size(), 6);
+  for (int axis = 0; axis < 6; ++axis) {
+    std::array<std::vector<SpatialHit>, 2> hits;
+    for (const int side : {0, 1}) {
+      const Vector3d step = (side == 0 ? -kStep : kStep) * Vector3d::Unit(axis % 3);
+      Pose3 moved = T_world_body;
+      if (axis < 3) moved.translation += step;
+      if (axis >= 3) moved.rotation = Eigen::AngleAxisd(step.norm(), step.normalized()) * moved.rotation;
+      hits[static_cast<size_t>(side)] = ranges_from(moved);
+    }
+    for (size_t i = 0; i < sweep.points.size(); ++i) {
+      const bool across_corner = hits[0][i].normal.dot(hits[1][i].normal) < 0.99F;
+      const double slope = across_corner ? 0.0 : (hits[1][i].range_m - hits[0][i].range_m) / (2.0 * kStep);
+      jacobian(static_cast<Eigen::Index>(i), axis) = slope;
+    }
+  }
+  options.range_sigma_m = 0.02;
+  const std::optional<Matrix6d> bound = SimulateSweep(world, motion, 3, options, 1).bound;
+  ASSERT_TRUE(bound.has_value());
+  const Matrix6d expected = 4e-4 * (jacobian.transpose() * jacobian).inverse();
+  EXPECT_LT((*bound - expected).norm(), 0.02 * expected.norm()) << *bound << "\n\n" << expected;
+  EXPECT_LT(std::sqrt(bound->topLeftCorner<3, 3>().trace()), 1e-3) << "29,000 points of 20 mm: well below 1 mm";
+}
+
+TEST(SimulateSweep, NoBoundWithoutSightOfEnoughWalls) {
+  const SpatialWorld plate({{MakeBox({100.0, 100.0, 1.0}), 1.0F}}, Vector3d::Zero());
+  const SimulatedSweep floor_only = SimulateSweep(plate, StandingStill(), 0, {}, 1);
+  EXPECT_GT(floor_only.sweep.points.size(), 10'000u);
+  EXPECT_FALSE(floor_only.bound.has_value());
+  const SimulatedSweep walls_only = SimulateSweep(BareRoomWorld(), StandingStill(), 0, {}, 1);
+  EXPECT_FALSE(walls_only.bound.has_value()) << "a level VLP-16 there sees neither floor nor ceiling: no height";
+  EXPECT_EQ(SimulateSweep(BareRoomWorld(), WildMotion(), 0, {.range_sigma_m = 0.0}, 1).bound, Matrix6d::Zero());
 }
 
 TEST(MultiLineLidarModel, BeamsAndRatesOfTheManuals) {
