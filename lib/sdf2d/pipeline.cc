@@ -132,6 +132,11 @@ void Pipeline::Reset() {
 
 void Pipeline::SetPose(const Pose2& T_map_body) { motion_.Restart(T_map_body); }
 
+void Pipeline::SetMounting(const Pose2& T_body_lidar) {
+  options_.T_body_lidar = T_body_lidar;
+  origin_body_ = T_body_lidar.translation();
+}
+
 void Pipeline::SetMap(SdfMap map) {
   options_.cell_m = map.cell_m();
   map_ = std::move(map);

@@ -69,6 +69,8 @@ class Pipeline {
   void Reset();
   // Continues from there; the map stays.
   void SetPose(const Pose2& T_map_body);
+  // Where the lidar sits; before the first scan.
+  void SetMounting(const Pose2& T_body_lidar);
   void SetLocalizeOnly(bool localize_only) { options_.localize_only = localize_only; }
   // Continues on a map made earlier; its cell size becomes the pipeline's. The coarse level is derived from it.
   void SetMap(SdfMap map);

@@ -1,0 +1,53 @@
+#include "sdf2d/occupancy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lcmslam::sdf2d {
+namespace {
+
+constexpr int8_t kOccupied = 100;
+constexpr int8_t kFreeBySurface = -50;  // in front of a surface that was seen
+constexpr int kFreePerBeam = 10;
+
+int8_t CellOf(const SdfTile& tile, size_t vertex, float half_cell_m) {
+  const bool near_surface = tile.information[vertex] > 0.0F;
+  if (near_surface && std::abs(tile.distance_m[vertex]) <= half_cell_m) return kOccupied;
+  if (near_surface && tile.distance_m[vertex] > 0.0F) return kFreeBySurface;
+  return static_cast<int8_t>(-std::min<int>(kFreePerBeam * tile.seen_through[vertex], kOccupied));
+}
+
+}  // namespace
+
+OccupancyGrid ToOccupancyGrid(const SdfMap& map) {
+  OccupancyGrid grid;
+  grid.cell_m = map.cell_m();
+  if (map.empty()) return grid;
+
+  constexpr int kSide = SdfTile::kSide;
+  Eigen::Vector2i first = Eigen::Vector2i::Constant(std::numeric_limits<int>::max());
+  Eigen::Vector2i last = Eigen::Vector2i::Constant(std::numeric_limits<int>::min());
+  for (const SdfTile& tile : map.tiles()) {
+    const Eigen::Vector2i at(tile.tile_x, tile.tile_y);
+    first = first.cwiseMin(at);
+    last = last.cwiseMax(at);
+  }
+  grid.width = (last.x() - first.x() + 1) * kSide;
+  grid.height = (last.y() - first.y() + 1) * kSide;
+  grid.origin_m = (first.cast<double>() * kSide - Eigen::Vector2d::Constant(0.5)) * grid.cell_m;
+  grid.cells.assign(static_cast<size_t>(grid.width) * static_cast<size_t>(grid.height), 0);
+
+  const auto half_cell_m = static_cast<float>(0.5 * grid.cell_m);
+  for (const SdfTile& tile : map.tiles()) {
+    const size_t corner = static_cast<size_t>((tile.tile_y - first.y()) * kSide) * static_cast<size_t>(grid.width) +
+                          static_cast<size_t>((tile.tile_x - first.x()) * kSide);
+    for (size_t vertex = 0; vertex < SdfTile::kVertices; ++vertex) {
+      const size_t row = vertex / kSide, column = vertex % kSide;
+      grid.cells[corner + row * static_cast<size_t>(grid.width) + column] = CellOf(tile, vertex, half_cell_m);
+    }
+  }
+  return grid;
+}
+
+}  // namespace lcmslam::sdf2d
