@@ -22,15 +22,17 @@ bool Near(int64_t stamp, int64_t time) {
   return difference_us <= kMaxScanDurationUs && difference_us >= -kMaxScanDurationUs;
 }
 
-PlanarScan ToScan(const planar_scan_t& message) {
+PlanarScan ToScan(const planar_scan_t& message, std::optional<AngleSense> known_sense) {
   PlanarScan scan;
   scan.utime = message.utime;
   const bool timed = std::ranges::all_of(message.times, [&](int64_t t) { return Near(message.utime, t); });
   if (timed && !message.times.empty()) scan.utime = std::ranges::max(message.times);
+  const AngleSense sense = known_sense.value_or(DetectAngleSense(message.utime, message.times, message.thetas));
+  const float sign = sense == AngleSense::kClockwise ? -1.0F : 1.0F;
   scan.beams.resize(message.ranges.size());
   for (size_t i = 0; i < scan.beams.size(); ++i) {
     const int32_t dt_us = timed ? static_cast<int32_t>(message.times[i] - scan.utime) : 0;
-    scan.beams[i] = {message.ranges[i], message.thetas[i], dt_us};
+    scan.beams[i] = {message.ranges[i], sign * message.thetas[i], dt_us};
   }
   return scan;
 }
@@ -48,7 +50,7 @@ PlanarScan ToScan(const planar_lidar_t& message) {
 // None unless finite and with a quaternion of about unit length.
 std::optional<Pose3> ToPose(const double position[3], const double wxyz[4]) {
   Pose3 pose{{position[0], position[1], position[2]}, {wxyz[0], wxyz[1], wxyz[2], wxyz[3]}};
-  if (!pose.IsFinite() || std::abs(pose.rotation.norm() - 1.0) > 0.01) return {};
+  if (!pose.IsRigid()) return {};
   pose.rotation.normalize();
   return pose;
 }
@@ -66,8 +68,8 @@ bool IsScan(Bytes message) {
   return type == planar_scan_t::getHash() || type == planar_lidar_t::getHash();
 }
 
-std::optional<PlanarScan> DecodeScan(Bytes message) {
-  if (const auto scan = Decode<planar_scan_t>(message)) return ToScan(*scan);
+std::optional<PlanarScan> DecodeScan(Bytes message, std::optional<AngleSense> sense) {
+  if (const auto scan = Decode<planar_scan_t>(message)) return ToScan(*scan, sense);
   if (const auto scan = Decode<planar_lidar_t>(message)) return ToScan(*scan);
   return {};
 }

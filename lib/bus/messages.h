@@ -5,6 +5,7 @@
 
 #include "bus/wire.h"
 #include "geometry/trajectory.h"
+#include "lidar/angle_sense.h"
 #include "lidar/planar_scan.h"
 
 namespace lcmslam {
@@ -18,7 +19,8 @@ class rigid_transform_t;
 
 // planar_scan_t (= MBot's lidar_t) or bot_core's planar_lidar_t, told apart by fingerprint.
 bool IsScan(Bytes message);
-std::optional<PlanarScan> DecodeScan(Bytes message);
+// Angles come out counter-clockwise; `sense` says how planar_scan_t counts them, none: DetectAngleSense.
+std::optional<PlanarScan> DecodeScan(Bytes message, std::optional<AngleSense> sense = {});
 planar_scan_t ToMessage(const PlanarScan& scan);
 
 // pose_t (= bot_core's) or MBot's pose_xyt_t, told apart by fingerprint.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -17,6 +19,8 @@ struct Pose3 {
   Eigen::Vector3d operator*(const Eigen::Vector3d& p_b) const { return rotation * p_b + translation; }
 
   bool IsFinite() const { return translation.allFinite() && rotation.coeffs().allFinite(); }
+  // Finite, with a quaternion of about unit length (0.01): whether numbers from outside can be a pose.
+  bool IsRigid() const { return IsFinite() && std::abs(rotation.norm() - 1.0) <= 0.01; }
 };
 
 // Translation linear, rotation SLERP; fraction 0 is a, 1 is b.

@@ -36,6 +36,26 @@ TEST(Messages, ScanStampIsItsLastBeam) {
   EXPECT_EQ(scan->beams[0].dt_us, -50'000);
 }
 
+TEST(Messages, ScanAnglesComeOutCounterClockwise) {
+  planar_scan_t message{};  // one turn of an RPLidar on an MBot
+  message.utime = 1'000'000;
+  message.num_ranges = 300;
+  for (int i = 0; i < message.num_ranges; ++i) {
+    message.ranges.push_back(1.0F);
+    message.thetas.push_back(0.02F * static_cast<float>(i));
+    message.times.push_back(message.utime + 500 * i);
+    message.intensities.push_back(0.0F);
+  }
+  const auto angle = [&](std::optional<AngleSense> sense) {
+    return DecodeScan(Encode(message), sense)->beams[50].angle_rad;
+  };
+  EXPECT_EQ(angle({}), -1.0F);
+  EXPECT_EQ(angle(AngleSense::kClockwise), -1.0F);
+  EXPECT_EQ(angle(AngleSense::kCounterClockwise), 1.0F);
+  message.utime = message.times.back();  // stamped as ours
+  EXPECT_EQ(angle({}), 1.0F);
+}
+
 TEST(Messages, BeamTimesThatAreNoneAreUnknown) {
   planar_scan_t message{};
   message.utime = 1'700'000'000'000'000;
