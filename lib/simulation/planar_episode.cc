@@ -12,6 +12,7 @@ std::string PlanarEpisodeOptions::Validate() const {
   if (const std::string error = lidar.Validate(); !error.empty()) return "lidar." + error;
   if (const std::string error = drive.Validate(); !error.empty()) return "drive." + error;
   if (const std::string error = odometry.Validate(); !error.empty()) return "odometry." + error;
+  if (const std::string error = people.Validate(); !error.empty()) return "people." + error;
   return "";
 }
 
@@ -27,7 +28,8 @@ PlanarEpisode::PlanarEpisode(PlanarWorld world, PlanarMotion motion, const Plana
     : world_(std::move(world)),
       motion_(std::move(motion)),
       options_(options),
-      odometry_(SimulateOdometry(motion_, options.odometry, options.seed)) {}
+      odometry_(SimulateOdometry(motion_, options.odometry, options.seed)),
+      people_(SimulatePeople(world_, motion_, options.people, options.seed)) {}
 
 int PlanarEpisode::num_frames() const {
   const PlanarLidarModel& model = options_.lidar.model;
@@ -39,7 +41,7 @@ PlanarFrame PlanarEpisode::Frame(int i) const {
   const int64_t utime = options_.start_utime + std::llround(1e6 * (i * model.turn_s + model.sweep_s()));
   Rng rng = MakeRng(options_.seed, RandomStream::kRange, static_cast<uint64_t>(i));
   const auto T_world_body = [this](int64_t time) { return motion_.PoseAt(time); };
-  SimulatedScan simulated = SimulateScan(world_, T_world_body, utime, options_.lidar, rng);
+  SimulatedScan simulated = SimulateScan(world_, people_, T_world_body, utime, options_.lidar, rng);
   return {std::move(simulated.scan), motion_.PoseAt(utime), motion_.TwistAt(utime), simulated.bound};
 }
 

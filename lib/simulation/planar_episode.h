@@ -10,6 +10,7 @@
 #include "simulation/planar_lidar.h"
 #include "simulation/planar_motion.h"
 #include "simulation/planar_odometry.h"
+#include "simulation/planar_people.h"
 #include "simulation/planar_world.h"
 
 namespace lcmslam {
@@ -21,6 +22,7 @@ struct PlanarEpisodeOptions {
   PlanarLidarOptions lidar = {};
   PlanarDriveOptions drive = {};
   PlanarOdometryOptions odometry = {};
+  PlanarPeopleOptions people = {};
 
   std::string Validate() const;
 };
@@ -47,6 +49,7 @@ class PlanarEpisode {
   const PlanarWorld& world() const { return world_; }
   const PlanarMotion& motion() const { return motion_; }
   const std::vector<OdometrySample>& odometry() const { return odometry_; }
+  const std::vector<Person>& people() const { return people_; }
   const PlanarEpisodeOptions& options() const { return options_; }
 
  private:
@@ -56,6 +59,7 @@ class PlanarEpisode {
   PlanarMotion motion_;
   PlanarEpisodeOptions options_;
   std::vector<OdometrySample> odometry_;
+  std::vector<Person> people_;
 };
 
 }  // namespace lcmslam

@@ -39,6 +39,24 @@ PlanarLidarModel Rplidar(double samples_per_s, double turn_s) {
           .max_range_m = 12.0};
 }
 
+// A beam as it leaves the lidar, without its range yet.
+Beam BeamOf(int i, const PlanarLidarOptions& options) {
+  const PlanarLidarModel& model = options.model;
+  const double angle_rad = WrapAngle(model.first_angle_rad + i * model.angle_step_rad);
+  const double before_end_s = options.motion_distortion ? (model.num_beams - 1 - i) * model.beam_interval_s() : 0.0;
+  return {.angle_rad = static_cast<float>(angle_rad), .dt_us = -static_cast<int32_t>(std::llround(1e6 * before_end_s))};
+}
+
+std::optional<SurfaceHit> NearestPerson(std::span<const Person> people, const Vector2d& origin,
+                                        const Vector2d& direction, int64_t utime) {
+  std::optional<SurfaceHit> nearest;
+  for (const Person& person : people) {
+    const std::optional<SurfaceHit> hit = person.CastRay(origin, direction, utime);
+    if (hit && (!nearest || hit->range_m < nearest->range_m)) nearest = hit;
+  }
+  return nearest;
+}
+
 // The derivative of a range by the pose of the body (world axes, about the body's origin).
 Vector3d RangeJacobian(const SurfaceHit& hit, const Vector2d& direction, const Vector2d& hit_from_body) {
   const double turning = hit.normal.y() * hit_from_body.x() - hit.normal.x() * hit_from_body.y();
@@ -83,40 +101,37 @@ std::string PlanarLidarOptions::Validate() const {
   return "";
 }
 
-SimulatedScan SimulateScan(const PlanarWorld& world, const PoseAtTime& T_world_body, int64_t utime,
-                           const PlanarLidarOptions& options, Rng& rng) {
+SimulatedScan SimulateScan(const PlanarWorld& world, std::span<const Person> people, const PoseAtTime& T_world_body,
+                           int64_t utime, const PlanarLidarOptions& options, Rng& rng) {
   const PlanarLidarModel& model = options.model;
-  const Pose2 T_world_body_end = T_world_body(utime);
+  const Vector2d p_world_body = T_world_body(utime).translation();
   boost::random::normal_distribution<double> normal;
-  SimulatedScan result;
-  result.scan.utime = utime;
-  result.scan.beams.reserve(static_cast<size_t>(model.num_beams));
   Matrix3d information = Matrix3d::Zero();
-  bool exact = false;
+  SimulatedScan result{.scan = {.utime = utime, .beams = {}}, .bound = {}};
   for (int i = 0; i < model.num_beams; ++i) {
-    const double angle_rad = model.first_angle_rad + i * model.angle_step_rad;
-    const int beams_to_go = model.num_beams - 1 - i;
-    const auto dt_us = options.motion_distortion ? -std::llround(1e6 * beams_to_go * model.beam_interval_s()) : 0;
-    Beam& beam = result.scan.beams.emplace_back(
-        Beam{.angle_rad = static_cast<float>(WrapAngle(angle_rad)), .dt_us = static_cast<int32_t>(dt_us)});
-
-    const Pose2 T_world_lidar = (dt_us == 0 ? T_world_body_end : T_world_body(utime + dt_us)) * options.T_body_lidar;
+    Beam& beam = result.scan.beams.emplace_back(BeamOf(i, options));
+    const Pose2 T_world_lidar = T_world_body(utime + beam.dt_us) * options.T_body_lidar;
     // The angle as the message carries it, so that rounding it to float is no error of the scan.
     const double heading_rad = T_world_lidar.yaw() + beam.angle_rad;
     const Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
-    const std::optional<SurfaceHit> hit = world.CastRay(T_world_lidar.translation(), direction, model.max_range_m);
-    if (!hit) continue;
-    const double sigma_m = options.noise.Sigma(hit->range_m);
-    const double range_m = hit->range_m + sigma_m * normal(rng);
+    const Vector2d& origin = T_world_lidar.translation();
+    const std::optional<SurfaceHit> wall = world.CastRay(origin, direction, model.max_range_m);
+    const std::optional<SurfaceHit> person = NearestPerson(people, origin, direction, utime + beam.dt_us);
+    if (!wall && !person) continue;
+
+    const bool ends_on_wall = wall && (!person || wall->range_m < person->range_m);
+    const double true_range_m = ends_on_wall ? wall->range_m : person->range_m;
+    const double sigma_m = options.noise.Sigma(true_range_m);
+    const double range_m = true_range_m + sigma_m * normal(rng);
     if (range_m < model.min_range_m || range_m > model.max_range_m) continue;
     beam.range_m = static_cast<float>(range_m);
-
-    exact = exact || sigma_m == 0.0;
-    const Vector2d p_world_hit = T_world_lidar.translation() + hit->range_m * direction;
-    const Vector3d jacobian = RangeJacobian(*hit, direction, p_world_hit - T_world_body_end.translation()) / sigma_m;
+    if (!ends_on_wall) continue;
+    const Vector2d hit_from_body = origin + true_range_m * direction - p_world_body;
+    const Vector3d jacobian = RangeJacobian(*wall, direction, hit_from_body) / (options.noise.IsNone() ? 1.0 : sigma_m);
     information += jacobian * jacobian.transpose();
   }
-  result.bound = exact ? Matrix3d::Zero() : CramerRaoBound(information);
+  result.bound = CramerRaoBound(information);
+  if (result.bound && options.noise.IsNone()) result.bound->setZero();
   return result;
 }
 

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <Eigen/Core>
 
 #include "geometry/pose2.h"
 #include "lidar/planar_scan.h"
+#include "simulation/planar_people.h"
 #include "simulation/planar_world.h"
 #include "simulation/random.h"
 
@@ -39,6 +43,7 @@ struct RangeNoise {
   double relative_sigma = 0.0;
 
   double Sigma(double range_m) const { return std::max(sigma_m, relative_sigma * range_m); }
+  bool IsNone() const { return sigma_m == 0.0 && relative_sigma == 0.0; }
   std::string Validate() const;
 
   static RangeNoise None() { return {}; }
@@ -72,8 +77,10 @@ inline double PositionBound(const Eigen::Matrix3d& covariance) {
 // T_world_body by time, us.
 using PoseAtTime = std::function<Pose2(int64_t utime)>;
 
-// One turn whose last beam is measured at `utime`. Draws one normal number per beam that meets a wall in range.
-[[nodiscard]] SimulatedScan SimulateScan(const PlanarWorld& world, const PoseAtTime& T_world_body, int64_t utime,
+// One turn whose last beam is measured at `utime`. Draws one normal number per beam that meets something in range.
+// Beams that end on people tell nothing of the pose, so they have no part in the bound.
+[[nodiscard]] SimulatedScan SimulateScan(const PlanarWorld& world, std::span<const Person> people,
+                                         const PoseAtTime& T_world_body, int64_t utime,
                                          const PlanarLidarOptions& options, Rng& rng);
 
 }  // namespace lcmslam

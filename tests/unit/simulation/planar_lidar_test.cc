@@ -27,7 +27,7 @@ Pose2 MoveFast(int64_t utime) { return kTWorldBody * Pose2::Exp(1e-6 * utime * V
 SimulatedScan Simulate(const PlanarWorld& world, const PoseAtTime& T_world_body, const PlanarLidarOptions& options,
                        uint64_t seed = 1) {
   Rng rng = MakeRng(seed, RandomStream::kRange);
-  return SimulateScan(world, T_world_body, 0, options, rng);
+  return SimulateScan(world, {}, T_world_body, 0, options, rng);
 }
 
 // How far the end of a beam that was sent from the given pose lies from the nearest wall.
@@ -89,7 +89,7 @@ TEST(PlanarLidar, OutOfRangeIsNoReturn) {
   options.model.max_range_m = 3.0;
   Rng rng(1);
   const SimulatedScan simulated = SimulateScan(
-      far, [](int64_t) { return Pose2(); }, 0, options, rng);
+      far, {}, [](int64_t) { return Pose2(); }, 0, options, rng);
   for (const Beam& beam : simulated.scan.beams) {
     const double wall_m =
         std::cos(beam.angle_rad) > 0.0 ? 2.0 / std::cos(beam.angle_rad) : -0.5 / std::cos(beam.angle_rad);
@@ -159,6 +159,7 @@ TEST(PlanarLidar, BoundMatchesNumericDerivatives) {
 TEST(PlanarLidar, BoundIsZeroWithoutNoiseAndNoneInAnEndlessCorridor) {
   EXPECT_TRUE(Simulate(Room5World(), StandStill, {}).bound->isZero());
   const PlanarWorld corridor({{{-50.0, 0.0}, {50.0, 0.0}}, {{-50.0, 5.0}, {50.0, 5.0}}});
+  EXPECT_FALSE(Simulate(corridor, StandStill, {}).bound.has_value());
   EXPECT_FALSE(Simulate(corridor, StandStill, {.noise = RangeNoise::Low()}).bound.has_value());
   EXPECT_FALSE(Simulate(PlanarWorld({}), StandStill, {}).bound.has_value());
 }
