@@ -45,12 +45,12 @@ CycleMotion Still(const BodyState& body, const Pose3& T_body_lidar) {
 }
 
 // The first cycle that starts in turn `index` or later.
-int64_t FirstCycle(const MultiLineLidarModel& model, int index) {
+int64_t FirstCycle(const MultiLineModel& model, int index) {
   return static_cast<int64_t>(std::ceil(1e6 * model.turn_s * index / model.firing_cycle_us - 1e-9));
 }
 
 // Beam directions at the start of a cycle that begins at azimuth 0, each already turned on by its own delay.
-std::vector<Vector3d> BeamDirections(const MultiLineLidarModel& model) {
+std::vector<Vector3d> BeamDirections(const MultiLineModel& model) {
   std::vector<Vector3d> directions;
   for (const Laser& laser : model.lasers) {
     const double azimuth_rad = laser.azimuth_rad - 1e-6 * kTurn_rad * laser.fire_delay_us / model.turn_s;
@@ -61,13 +61,14 @@ std::vector<Vector3d> BeamDirections(const MultiLineLidarModel& model) {
 }
 
 // The rays of one cycle.
-void Aim(const MultiLineLidarModel& model, const std::vector<Vector3d>& head_directions, const Matrix3d& R_lidar_head,
+void Aim(const MultiLineModel& model, const std::vector<Vector3d>& head_directions, const Matrix3d& R_lidar_head,
          const CycleMotion& lidar, std::vector<SpatialRay>& rays) {
   const Matrix3d R_world_head = lidar.R_world_lidar * R_lidar_head;
   for (size_t i = 0; i < rays.size(); ++i) {
     const double delay_s = 1e-6 * model.lasers[i].fire_delay_us;
     const Vector3d direction = R_world_head * head_directions[i];
-    rays[i].origin = (lidar.origin + delay_s * lidar.velocity_mps).cast<float>();
+    const Vector3d offset = model.lasers[i].height_m * lidar.R_world_lidar.col(2);
+    rays[i].origin = (lidar.origin + delay_s * lidar.velocity_mps + offset).cast<float>();
     rays[i].direction = (direction + delay_s * lidar.angular_velocity_radps.cross(direction)).cast<float>();
   }
 }
@@ -128,7 +129,7 @@ std::string MultiLineLidarOptions::Validate() const {
 
 SimulatedSweep SimulateSweep(const SpatialWorld& world, const SpatialMotion& motion, int index,
                              const MultiLineLidarOptions& options, uint64_t seed) {
-  const MultiLineLidarModel& model = options.model;
+  const MultiLineModel& model = options.model;
   const std::vector<Vector3d> head_directions = BeamDirections(model);
   const int64_t first_cycle = FirstCycle(model, index);
   const int64_t end_cycle = FirstCycle(model, index + 1);
@@ -154,7 +155,8 @@ SimulatedSweep SimulateSweep(const SpatialWorld& world, const SpatialMotion& mot
     for (size_t i = 0; i < rays.size(); ++i) {
       const Receiver::Echo echo = receiver.Receive(rays[i], hits[i]);
       if (!echo.seen) continue;
-      const Eigen::Vector3f p_lidar = (echo.range_m * (R_lidar_head * head_directions[i])).cast<float>();
+      const Vector3d along_beam = echo.range_m * (R_lidar_head * head_directions[i]);
+      const Eigen::Vector3f p_lidar = (along_beam + model.lasers[i].height_m * Vector3d::UnitZ()).cast<float>();
       const int64_t shot_utime = std::llround(cycle_us + model.lasers[i].fire_delay_us);
       const int64_t dt_us = options.motion_distortion ? shot_utime - result.sweep.utime : 0;
       result.sweep.points.push_back({.x = p_lidar.x(),

@@ -1,10 +1,10 @@
+#include "lidar/multi_line_model.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "geometry/angles.h"
-#include "simulation/multi_line_lidar.h"
 
 namespace lcmslam {
 namespace {
@@ -30,10 +30,10 @@ std::vector<Laser> Interleaved(int count, double lowest_deg, double step_deg, do
 
 }  // namespace
 
-std::string MultiLineLidarModel::Validate() const {
+std::string MultiLineModel::Validate() const {
   if (lasers.empty()) return "lasers: must not be empty";
   for (size_t i = 0; i < lasers.size(); ++i) {
-    if (!std::isfinite(lasers[i].elevation_rad) || !std::isfinite(lasers[i].azimuth_rad))
+    if (!std::isfinite(lasers[i].elevation_rad + lasers[i].azimuth_rad + lasers[i].height_m))
       return "lasers: must be finite";
     const double previous_us = i > 0 ? lasers[i - 1].fire_delay_us : 0.0;
     if (!(lasers[i].fire_delay_us >= previous_us)) return "lasers: must be in firing order";
@@ -45,16 +45,20 @@ std::string MultiLineLidarModel::Validate() const {
   return "";
 }
 
-// Velodyne VLP-16 User Manual, 63-9243 rev. D, chapter 9.
-MultiLineLidarModel VelodyneVlp16() {
-  return {.lasers = Interleaved(16, -15.0, 2.0, 2.304),
-          .firing_cycle_us = 55.296,
-          .min_range_m = 0.4,
-          .max_range_m = 100.0};
+// Velodyne VLP-16 User Manual, 63-9243 rev. D, chapter 9: angles, vertical corrections, firing times.
+MultiLineModel VelodyneVlp16() {
+  constexpr std::array<double, 16> kHeight_mm = {11.2, 9.7,  8.1,  6.6,  5.1,  3.7,  2.2,  0.7,
+                                                 -0.7, -2.2, -3.7, -5.1, -6.6, -8.1, -9.7, -11.2};  // by ring
+  MultiLineModel model{.lasers = Interleaved(16, -15.0, 2.0, 2.304),
+                       .firing_cycle_us = 55.296,
+                       .min_range_m = 0.4,
+                       .max_range_m = 100.0};
+  for (Laser& laser : model.lasers) laser.height_m = 1e-3 * kHeight_mm[static_cast<size_t>(laser.ring)];
+  return model;
 }
 
 // Velodyne HDL-32E User Manual, 63-9113 rev. M, appendix A.
-MultiLineLidarModel VelodyneHdl32e() {
+MultiLineModel VelodyneHdl32e() {
   return {.lasers = Interleaved(32, -92.0 / 3.0, 4.0 / 3.0, 1.152),
           .firing_cycle_us = 46.08,
           .min_range_m = 0.4,
@@ -63,8 +67,8 @@ MultiLineLidarModel VelodyneHdl32e() {
 
 // Velodyne HDL-64E S2: 32 upper lasers 1/3 degree apart from 2 degrees down, 32 lower ones 1/2 degree apart, fired in
 // pairs of one upper and one lower; the pairs are taken to be evenly spread over the 48 us cycle.
-MultiLineLidarModel VelodyneHdl64e() {
-  MultiLineLidarModel model{.firing_cycle_us = 48.0, .min_range_m = 0.9, .max_range_m = 120.0};
+MultiLineModel VelodyneHdl64e() {
+  MultiLineModel model{.firing_cycle_us = 48.0, .min_range_m = 0.9, .max_range_m = 120.0};
   for (int i = 0; i < 32; ++i) {
     model.lasers.push_back({.elevation_rad = DegToRad(2.0 - i / 3.0), .fire_delay_us = i * 1.5});
     model.lasers.push_back({.elevation_rad = DegToRad(-53.0 / 6.0 - i / 2.0), .fire_delay_us = i * 1.5});
@@ -74,9 +78,9 @@ MultiLineLidarModel VelodyneHdl64e() {
 }
 
 // Ouster OS1-64, first generation, 1024x10: one column fires at once, neighbouring beams staggered in azimuth.
-MultiLineLidarModel OusterOs1_64() {
+MultiLineModel OusterOs1_64() {
   constexpr std::array<double, 4> kStagger_deg = {3.164, 1.055, -1.055, -3.164};
-  MultiLineLidarModel model{.firing_cycle_us = 1e5 / 1024.0, .min_range_m = 0.3, .max_range_m = 120.0};
+  MultiLineModel model{.firing_cycle_us = 1e5 / 1024.0, .min_range_m = 0.3, .max_range_m = 120.0};
   for (int i = 0; i < 64; ++i) {
     model.lasers.push_back({.elevation_rad = DegToRad(16.6 - i * 33.2 / 63.0),
                             .azimuth_rad = DegToRad(kStagger_deg[static_cast<size_t>(i % 4)])});
@@ -85,12 +89,12 @@ MultiLineLidarModel OusterOs1_64() {
   return model;
 }
 
-MultiLineLidarModel MultiLineLidarByName(std::string_view name) {
+std::optional<MultiLineModel> NamedMultiLineModel(std::string_view name) {
   if (name == "vlp16") return VelodyneVlp16();
   if (name == "hdl32e") return VelodyneHdl32e();
   if (name == "hdl64e") return VelodyneHdl64e();
   if (name == "os1-64") return OusterOs1_64();
-  throw std::invalid_argument("lidar: unknown: " + std::string(name));
+  return std::nullopt;
 }
 
 }  // namespace lcmslam
