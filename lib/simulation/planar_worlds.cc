@@ -1,9 +1,16 @@
 #include "simulation/planar_worlds.h"
 
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
+#include <boost/random/uniform_real_distribution.hpp>
+
 #include "geometry/angles.h"
+#include "simulation/planar_free_space.h"
+#include "simulation/random.h"
 
 namespace lcmslam {
 namespace {
@@ -77,6 +84,23 @@ std::optional<PlanarWorld> NamedPlanarWorld(std::string_view name) {
   if (name == "mocap5") return Mocap5World();
   if (name == "corridor") return CorridorWorld();
   return std::nullopt;
+}
+
+PlanarWorld WithRandomBoxes(PlanarWorld world, int count, double min_gap_m, uint64_t seed) {
+  Rng rng = MakeRng(seed, RandomStream::kObjects);
+  boost::random::uniform_real_distribution<double> side_m(0.2, 0.8);
+  boost::random::uniform_real_distribution<double> yaw_rad(0.0, std::numbers::pi);
+  for (int i = 0; i < count; ++i) {
+    const double length_m = side_m(rng);
+    const double width_m = side_m(rng);
+    const PlanarFreeSpace space(world, 0.5 * std::hypot(length_m, width_m) + min_gap_m);
+    if (space.empty()) break;
+    std::vector<Segment> walls(world.walls().begin(), world.walls().end());
+    const std::vector<Segment> box = BoxOutline(space.RandomPlace(rng), length_m, width_m, yaw_rad(rng));
+    walls.insert(walls.end(), box.begin(), box.end());
+    world = PlanarWorld(std::move(walls), {world.barriers().begin(), world.barriers().end()});
+  }
+  return world;
 }
 
 }  // namespace lcmslam

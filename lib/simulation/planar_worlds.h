@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -14,5 +15,9 @@ PlanarWorld CorridorWorld();  // 30 x 2 m, bare in the middle, door recesses nea
 
 // "room5", "stdr10", "mocap5" or "corridor"; none for other names.
 [[nodiscard]] std::optional<PlanarWorld> NamedPlanarWorld(std::string_view name);
+
+// The world with up to `count` boxes of 0.2 to 0.8 m more in its free space, at least min_gap_m from all else; fewer
+// where there is no room. Deterministic in the seed.
+[[nodiscard]] PlanarWorld WithRandomBoxes(PlanarWorld world, int count, double min_gap_m, uint64_t seed);
 
 }  // namespace lcmslam

@@ -126,5 +126,25 @@ TEST(PlanarWorld, EmptyWorldHasNothingToHit) {
 
 TEST(PlanarWorlds, UnknownNameIsNoWorld) { EXPECT_FALSE(NamedPlanarWorld("room6").has_value()); }
 
+TEST(PlanarWorlds, RandomBoxesKeepTheirDistance) {
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const PlanarWorld world = WithRandomBoxes(Stdr10World(), 6, 0.7, seed);
+    const size_t before = Stdr10World().walls().size();
+    ASSERT_EQ(world.walls().size(), before + 4 * 6);
+    for (size_t i = before; i < world.walls().size(); ++i) {
+      const size_t box = (i - before) / 4;  // its four sides
+      for (size_t j = 0; j < world.walls().size(); ++j) {
+        if (j >= before && (j - before) / 4 == box) continue;
+        EXPECT_GE(PlanarWorld({world.walls()[j]}).Distance(world.walls()[i].a), 0.7);
+      }
+    }
+  }
+}
+
+TEST(PlanarWorlds, RandomBoxesEndWhereThereIsNoRoom) {
+  EXPECT_LT(WithRandomBoxes(Room5World(), 1000, 0.5, 1).walls().size(), 200U);
+}
+
 }  // namespace
 }  // namespace lcmslam
