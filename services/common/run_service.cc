@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/command_line.h"
 #include "common/config.h"
 
 namespace lcmslam {
@@ -49,7 +50,6 @@ int RunServiceParts(int argc, char** argv, const ServiceParts& parts) {
   std::string config_path;
   std::vector<std::string> assignments;
   bool print_config = false;
-  app.set_version_flag("--version", LCMSLAM_VERSION);
   app.add_option("--config", config_path, "configuration, Protocol Buffers text format");
   app.add_option("--set", assignments, "path=value: set one field of the configuration (repeatable)")
       ->allow_extra_args(false);
@@ -60,14 +60,7 @@ int RunServiceParts(int argc, char** argv, const ServiceParts& parts) {
   app.add_option("--out", options.out, "folder for maps, trajectories and the effective configuration");
   app.add_flag("--timings", options.timings, "wall-clock figures in --log-out (its bytes then differ from run to run)");
   app.add_flag("--quiet", options.quiet, "no progress bar, no summary");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "{}: {}\n", parts.name, error.what());
-    return static_cast<int>(ExitCode::kUsage);
-  }
-  return RunCommand(parts.name, [&] {
+  return RunCommandLine(app, argc, argv, [&] {
     if (!config_path.empty()) LoadConfig(config_path, *parts.config);
     for (const std::string& assignment : assignments) SetConfigField(assignment, *parts.config);
     parts.complete();

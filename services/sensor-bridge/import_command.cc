@@ -1,0 +1,116 @@
+#include "sensor-bridge/import_command.h"
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bus/signals.h"
+#include "common/config.h"
+#include "sensor-bridge/log_import.h"
+#include "sensors/bad_input.h"
+
+namespace lcmslam {
+namespace {
+
+using Import = std::function<void(SensorPublisher&, const Note&)>;
+
+// Runs `import` onto the bus or into a log; what came before an error is published all the same.
+ExitCode RunImport(const OutputOptions& options, const Import& import) {
+  RequireValid(options.Validate());
+  CatchStopSignals();
+  BridgeOutput output(options);
+  SensorPublisher publisher(output);
+  const auto say = [&](const std::string& line) {
+    if (!options.quiet) fmt::print(stderr, "sensor-bridge: {}\n", line);
+  };
+  std::string bad_input;
+  try {
+    import(publisher, say);
+  } catch (const BadInput& error) {
+    bad_input = error.what();
+  } catch (const CommandError& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    bad_input = error.what();
+  }
+  publisher.Finish();
+  output.Finish();
+  say(publisher.Summary());
+  if (!bad_input.empty()) throw CommandError(ExitCode::kBadInput, bad_input);
+  return ExitCode::kOk;
+}
+
+// Adds `import FORMAT FILE` with the options that all formats share.
+template <class Options>
+CLI::App* AddFormat(CLI::App& import, const std::string& name, const std::string& description, Options& options,
+                    OutputOptions& output) {
+  CLI::App* format = import.add_subcommand(name, description);
+  format->add_option("file", options.file, "the log")->required();
+  AddOutputOptions(*format, output);
+  return format;
+}
+
+void AddCarmen(CLI::App& import, OutputOptions& output, std::function<ExitCode()>& command) {
+  auto options = std::make_shared<CarmenImportOptions>();
+  CLI::App* format = AddFormat(import, "carmen", "CARMEN log, plain, .gz or .bz2", *options, output);
+  format->add_option("--scan-line", options->scan_line, "FLASER, RLASER, ...: the one for LIDAR_2D");
+  format->add_option("--max-range", options->log.max_range_m, "m; from here on no return, where the log does not say")
+      ->capture_default_str();
+  format->add_option("--front-laser-offset", options->log.front_laser_offset_m, "m; instead of the log's PARAM");
+  format->add_option("--scan-delay", options->scan_delay_s, "s; how long before their stamps scans were measured")
+      ->capture_default_str();
+  format->callback([=, &output, &command] {
+    command = [=, &output] {
+      RequireValid(options->Validate());
+      return RunImport(output, [=](auto& publisher, auto& note) { ImportCarmen(*options, publisher, note); });
+    };
+  });
+}
+
+void AddRosbag(CLI::App& import, OutputOptions& output, std::function<ExitCode()>& command) {
+  auto options = std::make_shared<RosbagImportOptions>();
+  CLI::App* format = AddFormat(import, "rosbag", "ROS 1 bag, format 2.0", *options, output);
+  format->add_option("--scan-topic", options->scan_topic, "the LaserScan topic for LIDAR_2D");
+  format->add_option("--odometry-topic", options->odometry_topic, "the pose topic for ODOMETRY");
+  format->add_option("--ground-truth-topic", options->ground_truth_topic, "the pose topic for GROUND_TRUTH");
+  format->add_option("--base-frame", options->base_frame, "tf frame of the body");
+  format->callback([=, &output, &command] {
+    command = [=, &output] {
+      return RunImport(output, [=](auto& publisher, auto& note) { ImportRosbag(*options, publisher, note); });
+    };
+  });
+}
+
+void AddMbot(CLI::App& import, OutputOptions& output, std::function<ExitCode()>& command) {
+  auto options = std::make_shared<MbotImportOptions>();
+  CLI::App* format = AddFormat(import, "mbot", "LCM log with the message types of MBot or bot_core", *options, output);
+  format->add_option("--scan-channel", options->scan_channel, "the scan channel for LIDAR_2D");
+  format->add_option("--odometry-channel", options->odometry_channel, "the pose channel for ODOMETRY")
+      ->capture_default_str();
+  format->add_option("--ground-truth-channel", options->ground_truth_channel, "the pose channel for GROUND_TRUTH")
+      ->capture_default_str();
+  auto clockwise = std::make_shared<bool>(), counter_clockwise = std::make_shared<bool>();
+  auto* flag = format->add_flag("--clockwise", *clockwise, "the scans' angles count clockwise; default: detected");
+  format->add_flag("--counter-clockwise", *counter_clockwise, "they count counter-clockwise")->excludes(flag);
+  format->callback([=, &output, &command] {
+    if (*clockwise) options->sense = AngleSense::kClockwise;
+    if (*counter_clockwise) options->sense = AngleSense::kCounterClockwise;
+    command = [=, &output] {
+      return RunImport(output, [=](auto& publisher, auto& note) { ImportMbot(*options, publisher, note); });
+    };
+  });
+}
+
+}  // namespace
+
+void AddImportCommand(CLI::App& app, std::function<ExitCode()>& command) {
+  CLI::App* import = app.add_subcommand("import", "Convert a log of another system");
+  import->require_subcommand(1);
+  auto output = std::make_shared<OutputOptions>();
+  AddCarmen(*import, *output, command);
+  AddRosbag(*import, *output, command);
+  AddMbot(*import, *output, command);
+  import->callback([output]{});  // keeps the options as long as the command line
+}
+
+}  // namespace lcmslam

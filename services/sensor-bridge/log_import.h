@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "lidar/angle_sense.h"
+#include "sensor-bridge/sensor_publisher.h"
+#include "sensors/carmen_log.h"
+
+namespace lcmslam {
+
+// Every importer goes through its file twice: first to learn what there is, then to publish it. They stop early on
+// SIGTERM or SIGINT. Malformed files end in BadInput (CommandError for LCM logs), after all that came before was handed
+// to the publisher. What a person should know goes to `note`, line by line.
+using Note = std::function<void(const std::string& line)>;
+
+struct CarmenImportOptions {
+  std::filesystem::path file;
+  CarmenOptions log;
+  std::string scan_line;  // FLASER, ...; the one for LIDAR_2D; "": the most frequent
+
+  // How long before its stamp a scan was measured. Scans keep their stamps, which relations and other people's results
+  // refer to; odometry and truth are moved to later instead.
+  double scan_delay_s = 0.0;
+
+  std::string Validate() const;
+};
+void ImportCarmen(const CarmenImportOptions& options, SensorPublisher& publisher, const Note& note);
+
+struct RosbagImportOptions {
+  std::filesystem::path file;
+  std::string scan_topic;          // for LIDAR_2D; "": the one with most scans
+  std::string odometry_topic;      // "": the nav_msgs/Odometry with most messages, else tf
+  std::string ground_truth_topic;  // "": a pose topic whose name says so
+  std::string base_frame;          // of the body; "": the odometry's child frame, base_footprint, base_link
+};
+void ImportRosbag(const RosbagImportOptions& options, SensorPublisher& publisher, const Note& note);
+
+struct MbotImportOptions {
+  std::filesystem::path file;
+  std::string scan_channel;                        // for LIDAR_2D; "": the one with most scans
+  std::string odometry_channel = "ODOMETRY";       // poses from here go to ODOMETRY
+  std::string ground_truth_channel = "TRUE_POSE";  // and from here to GROUND_TRUTH; others keep their channel
+  std::optional<AngleSense> sense;                 // of the scans' angles; none: DetectAngleSense
+};
+void ImportMbot(const MbotImportOptions& options, SensorPublisher& publisher, const Note& note);
+
+}  // namespace lcmslam
