@@ -17,6 +17,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr int kTrialsPerBox = 100;
+
 // Collects the parts of a world.
 class Builder {
  public:
@@ -90,15 +92,20 @@ PlanarWorld WithRandomBoxes(PlanarWorld world, int count, double min_gap_m, uint
   Rng rng = MakeRng(seed, RandomStream::kObjects);
   boost::random::uniform_real_distribution<double> side_m(0.2, 0.8);
   boost::random::uniform_real_distribution<double> yaw_rad(0.0, std::numbers::pi);
-  for (int i = 0; i < count; ++i) {
+  const PlanarFreeSpace space(world, min_gap_m);
+  const int trials = space.empty() ? 0 : kTrialsPerBox * count;
+  for (int trial = 0, boxes = 0; trial < trials && boxes < count; ++trial) {
+    const Vector2d center = space.RandomPlace(rng);
     const double length_m = side_m(rng);
     const double width_m = side_m(rng);
-    const PlanarFreeSpace space(world, 0.5 * std::hypot(length_m, width_m) + min_gap_m);
-    if (space.empty()) break;
+    const double yaw = yaw_rad(rng);
+    const double needed_m = 0.5 * std::hypot(length_m, width_m) + min_gap_m;
+    if (world.Distance(center, needed_m) < needed_m) continue;
     std::vector<Segment> walls(world.walls().begin(), world.walls().end());
-    const std::vector<Segment> box = BoxOutline(space.RandomPlace(rng), length_m, width_m, yaw_rad(rng));
+    const std::vector<Segment> box = BoxOutline(center, length_m, width_m, yaw);
     walls.insert(walls.end(), box.begin(), box.end());
     world = PlanarWorld(std::move(walls), {world.barriers().begin(), world.barriers().end()});
+    ++boxes;
   }
   return world;
 }
