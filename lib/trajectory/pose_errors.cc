@@ -1,0 +1,96 @@
+#include "trajectory/pose_errors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace lcmslam {
+namespace {
+
+// The motion from pair `from` to pair `to`, as the reference has it and as the estimate has it.
+void AddRelative(const PosePair& from, const PosePair& to, PoseErrors& errors) {
+  errors.Add(from.reference.inverse() * to.reference, from.estimate.inverse() * to.estimate);
+}
+
+// `position` never decreases: time or path length of each pair.
+PoseErrors RelativeErrors(std::span<const PosePair> pairs, std::span<const double> position, double step) {
+  PoseErrors errors;
+  size_t j = 0;
+  for (size_t i = 0; i + 1 < pairs.size(); ++i) {
+    const double goal = position[i] + step;
+    j = std::max(j, i + 1);
+    while (j + 1 < pairs.size() && position[j] < goal) ++j;
+    const bool previous_is_as_near = j > i + 1 && goal - position[j - 1] <= std::abs(position[j] - goal);
+    const size_t nearest = previous_is_as_near ? j - 1 : j;
+    if (std::abs(position[nearest] - goal) <= kStepTolerance * step) AddRelative(pairs[i], pairs[nearest], errors);
+  }
+  return errors;
+}
+
+}  // namespace
+
+void PoseErrors::Add(const Pose3& reference, const Pose3& estimate) {
+  translation_m.push_back((reference.translation - estimate.translation).norm());
+  rotation_rad.push_back(AngleBetween(reference.rotation, estimate.rotation));
+}
+
+PoseErrors AbsoluteErrors(std::span<const PosePair> pairs) {
+  PoseErrors errors;
+  errors.translation_m.reserve(pairs.size());
+  errors.rotation_rad.reserve(pairs.size());
+  for (const PosePair& pair : pairs) errors.Add(pair.reference, pair.estimate);
+  return errors;
+}
+
+PoseErrors RelativeErrorsOverTime(std::span<const PosePair> pairs, double step_s) {
+  std::vector<double> times_us(pairs.size());  // whole numbers, so that ties are exact
+  std::ranges::transform(pairs, times_us.begin(),
+                         [&](const PosePair& pair) { return static_cast<double>(pair.utime - pairs.front().utime); });
+  return RelativeErrors(pairs, times_us, std::round(step_s * 1e6));
+}
+
+PoseErrors RelativeErrorsOverDistance(std::span<const PosePair> pairs, double step_m) {
+  return RelativeErrors(pairs, PathLengths(pairs), step_m);
+}
+
+std::vector<double> PathLengths(std::span<const PosePair> pairs) {
+  std::vector<double> lengths(pairs.size());
+  for (size_t i = 1; i < pairs.size(); ++i) {
+    lengths[i] = lengths[i - 1] + (pairs[i].reference.translation - pairs[i - 1].reference.translation).norm();
+  }
+  return lengths;
+}
+
+KittiErrors KittiSegmentErrors(std::span<const PosePair> pairs) {
+  constexpr std::array<double, 8> kLengths_m = {100, 200, 300, 400, 500, 600, 700, 800};
+  constexpr size_t kStride = 10;
+  const std::vector<double> position = PathLengths(pairs);
+  KittiErrors errors;
+  for (size_t first = 0; first < pairs.size(); first += kStride) {
+    for (const double length_m : kLengths_m) {
+      const auto last = std::upper_bound(position.begin(), position.end(), position[first] + length_m);
+      if (last == position.end()) break;
+      PoseErrors segment;
+      AddRelative(pairs[first], pairs[static_cast<size_t>(last - position.begin())], segment);
+      errors.translation_ratio.push_back(segment.translation_m[0] / length_m);
+      errors.rotation_rad_per_m.push_back(segment.rotation_rad[0] / length_m);
+    }
+  }
+  return errors;
+}
+
+Drift DriftPerMetre(std::span<const PosePair> pairs) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  Drift drift{.path_length_m = pairs.empty() ? 0.0 : PathLengths(pairs).back(),
+              .translation_m_per_m = kNaN,
+              .rotation_rad_per_m = kNaN};
+  if (drift.path_length_m <= 0.0) return drift;
+  PoseErrors whole;
+  AddRelative(pairs.front(), pairs.back(), whole);
+  drift.translation_m_per_m = whole.translation_m[0] / drift.path_length_m;
+  drift.rotation_rad_per_m = whole.rotation_rad[0] / drift.path_length_m;
+  return drift;
+}
+
+}  // namespace lcmslam
