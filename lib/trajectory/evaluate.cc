@@ -1,0 +1,95 @@
+#include "trajectory/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lcmslam {
+namespace {
+
+ErrorSummary SummarizeErrors(const PoseErrors& errors) {
+  return {Summarize(errors.translation_m), Summarize(errors.rotation_rad)};
+}
+
+AlignmentKind ChooseAlignment(std::span<const StampedPose> estimate, const EvaluationOptions& options) {
+  return options.alignment.value_or(IsPlanar(estimate) ? AlignmentKind::kSe2 : AlignmentKind::kSe3);
+}
+
+void AssociateAndAlign(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
+                       AlignmentKind kind, const EvaluationOptions& options, Evaluation& result) {
+  result.association = Associate(estimate, reference, options.association);
+  auto& pairs = result.association.pairs;
+  if (pairs.empty()) return;
+  if (kind == AlignmentKind::kSe2) FlattenToPlane(pairs);
+  result.alignment = Align(pairs, kind, options.align);
+  Apply(result.alignment.T_world_map, pairs);
+  result.status = EvaluationStatus::kOk;
+}
+
+// As AssociateAndAlign, with all the transforms from the joint problem.
+void CalibrateAndAssociate(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
+                           AlignmentKind kind, const EvaluationOptions& options, Evaluation& result) {
+  CalibrationOptions calibration_options = options.calibration;
+  calibration_options.alignment = kind;
+  calibration_options.max_gap_us = options.association.max_gap_us;
+  result.calibration = Calibrate(estimate, reference, calibration_options);
+  const Calibration& calibration = *result.calibration;
+  if (calibration.status != CalibrationStatus::kOk) {
+    const bool is_empty = Associate(estimate, reference, options.association).pairs.empty();
+    result.status = is_empty ? EvaluationStatus::kNothingMatched : EvaluationStatus::kCalibrationFailed;
+    return;
+  }
+  AssociationOptions association = options.association;
+  association.time_offset_us = std::llround(calibration.time_offset_s * 1e6);
+  result.association = Associate(estimate, reference, association);
+  auto& pairs = result.association.pairs;
+  if (pairs.empty()) return;
+  for (PosePair& pair : pairs) pair.estimate = pair.estimate * calibration.T_body_marker;
+  Apply(calibration.T_world_map, pairs);
+  result.alignment.status = AlignmentStatus::kOk;
+  result.alignment.kind = kind;
+  result.alignment.T_world_map = calibration.T_world_map;
+  result.status = EvaluationStatus::kOk;
+}
+
+void Measure(const EvaluationOptions& options, Evaluation& result) {
+  const std::span<const PosePair> pairs = result.association.pairs;
+  result.absolute_errors = AbsoluteErrors(pairs);
+  result.absolute = SummarizeErrors(result.absolute_errors);
+  for (const double step_s : options.rpe_steps_s) {
+    result.relative_over_time.push_back({step_s, SummarizeErrors(RelativeErrorsOverTime(pairs, step_s))});
+  }
+  for (const double step_m : options.rpe_steps_m) {
+    result.relative_over_distance.push_back({step_m, SummarizeErrors(RelativeErrorsOverDistance(pairs, step_m))});
+  }
+  const KittiErrors kitti = KittiSegmentErrors(pairs);
+  result.kitti_translation_ratio = Summarize(kitti.translation_ratio);
+  result.kitti_rotation_rad_per_m = Summarize(kitti.rotation_rad_per_m);
+  result.drift = DriftPerMetre(pairs);
+  result.duration_s = static_cast<double>(pairs.back().utime - pairs.front().utime) * 1e-6;
+}
+
+}  // namespace
+
+std::string EvaluationOptions::Validate() const {
+  if (auto error = association.Validate(); !error.empty()) return "association." + error;
+  if (auto error = align.Validate(); !error.empty()) return "align." + error;
+  if (auto error = calibration.Validate(); !error.empty()) return "calibration." + error;
+  const bool is_joint = !alignment || alignment == AlignmentKind::kSe2 || alignment == AlignmentKind::kSe3;
+  if (calibrate && !is_joint) return "alignment: calibrate goes with se2 and se3 only";
+  const auto is_step = [](double step) { return step > 0.0; };
+  if (!std::ranges::all_of(rpe_steps_s, is_step)) return "rpe_steps_s: must be positive";
+  if (!std::ranges::all_of(rpe_steps_m, is_step)) return "rpe_steps_m: must be positive";
+  return "";
+}
+
+Evaluation Evaluate(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
+                    const EvaluationOptions& options) {
+  Evaluation result;
+  const AlignmentKind kind = ChooseAlignment(estimate, options);
+  const auto prepare = options.calibrate ? CalibrateAndAssociate : AssociateAndAlign;
+  prepare(estimate, reference, kind, options, result);
+  if (result.status == EvaluationStatus::kOk) Measure(options, result);
+  return result;
+}
+
+}  // namespace lcmslam
