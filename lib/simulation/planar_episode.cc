@@ -6,9 +6,15 @@
 #include "simulation/random.h"
 
 namespace lcmslam {
+namespace {
+
+constexpr int64_t kLatestStart = 4'000'000'000'000'000'000;
+
+}  // namespace
 
 std::string PlanarEpisodeOptions::Validate() const {
-  if (!(duration_s > 0.0) || duration_s > 1e6) return "duration_s: must be in (0, 1e6]";
+  if (!(duration_s > 0.0 && duration_s <= 1e5)) return "duration_s: must be in (0, 1e5]";
+  if (start_utime < 0 || start_utime > kLatestStart) return "start_utime: must be in 0..4e18";
   if (const std::string error = lidar.Validate(); !error.empty()) return "lidar." + error;
   if (const std::string error = drive.Validate(); !error.empty()) return "drive." + error;
   if (const std::string error = odometry.Validate(); !error.empty()) return "odometry." + error;

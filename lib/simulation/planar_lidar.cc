@@ -70,11 +70,11 @@ double PlanarLidarModel::beam_interval_s() const { return turn_s * std::abs(angl
 double PlanarLidarModel::sweep_s() const { return (num_beams - 1) * beam_interval_s(); }
 
 std::string PlanarLidarModel::Validate() const {
-  if (num_beams < 1) return "num_beams: must be at least 1";
+  if (num_beams < 1 || num_beams > 100'000) return "num_beams: must be in 1..100000";
   if (!std::isfinite(first_angle_rad)) return "first_angle_rad: must be finite";
   if (!(angle_step_rad != 0.0) || !std::isfinite(angle_step_rad)) return "angle_step_rad: must be finite, not 0";
   if (std::abs(angle_step_rad) * (num_beams - 1) > kTurn_rad) return "angle_step_rad: the beams exceed one turn";
-  if (!(turn_s > 0.0) || !std::isfinite(turn_s)) return "turn_s: must be positive";
+  if (!(turn_s >= 1e-3 && turn_s <= 1e3)) return "turn_s: must be in 0.001..1000";
   if (!(min_range_m >= 0.0)) return "min_range_m: must not be negative";
   if (!(max_range_m > min_range_m) || !std::isfinite(max_range_m)) return "max_range_m: must exceed min_range_m";
   return "";

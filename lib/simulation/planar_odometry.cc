@@ -10,7 +10,7 @@ namespace lcmslam {
 
 std::string PlanarOdometryOptions::Validate() const {
   const auto is_bad = [](double value) { return !(value >= 0.0) || !std::isfinite(value); };
-  if (is_bad(rate_hz) || rate_hz > 1e6) return "rate_hz: must be in 0..1e6";
+  if (is_bad(rate_hz) || rate_hz > 1e3) return "rate_hz: must be in 0..1000";
   if (is_bad(translation_scale_sigma)) return "translation_scale_sigma: must not be negative";
   if (is_bad(rotation_scale_sigma)) return "rotation_scale_sigma: must not be negative";
   if (is_bad(translation_walk_m_per_sqrt_m)) return "translation_walk_m_per_sqrt_m: must not be negative";

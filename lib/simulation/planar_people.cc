@@ -97,7 +97,7 @@ std::optional<SurfaceHit> Person::CastRay(const Vector2d& origin, const Vector2d
 }
 
 std::string PlanarPeopleOptions::Validate() const {
-  if (count < 0 || count > 1000) return "count: must be in 0..1000";
+  if (count < 0 || count > 100) return "count: must be in 0..100";
   if (!(radius_m > 0.0) || !std::isfinite(radius_m)) return "radius_m: must be positive";
   if (!(speed_mps >= 0.0) || !std::isfinite(speed_mps)) return "speed_mps: must not be negative";
   if (!(robot_distance_m >= 0.0) || !std::isfinite(robot_distance_m)) return "robot_distance_m: must not be negative";

@@ -50,7 +50,7 @@ TEST(PlanarEpisode, RefusesBadOptionsAndWorldsWithoutRoom) {
 
 TEST(PlanarEpisode, ValidateNamesTheField) {
   EXPECT_EQ(PlanarEpisodeOptions{}.Validate(), "");
-  EXPECT_EQ((PlanarEpisodeOptions{.duration_s = NAN}.Validate()), "duration_s: must be in (0, 1e6]");
+  EXPECT_EQ((PlanarEpisodeOptions{.duration_s = NAN}.Validate()), "duration_s: must be in (0, 1e5]");
   PlanarEpisodeOptions options;
   options.lidar.noise.sigma_m = -1.0;
   EXPECT_EQ(options.Validate(), "lidar.noise.sigma_m: must not be negative");

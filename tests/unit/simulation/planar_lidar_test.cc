@@ -167,7 +167,7 @@ TEST(PlanarLidar, BoundIsZeroWithoutNoiseAndNoneInAnEndlessCorridor) {
 TEST(PlanarLidar, ValidateNamesTheField) {
   PlanarLidarOptions options;
   options.model.turn_s = NAN;
-  EXPECT_EQ(options.Validate(), "model.turn_s: must be positive");
+  EXPECT_EQ(options.Validate(), "model.turn_s: must be in 0.001..1000");
   options = {};
   options.model.num_beams = 5000;
   EXPECT_EQ(options.Validate(), "model.angle_step_rad: the beams exceed one turn");

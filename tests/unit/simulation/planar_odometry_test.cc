@@ -91,7 +91,7 @@ TEST(PlanarOdometry, RateZeroIsNone) { EXPECT_TRUE(SimulateOdometry(Arc(), {}, 1
 
 TEST(PlanarOdometry, ValidateNamesTheField) {
   EXPECT_EQ(PlanarOdometryOptions{}.Validate(), "");
-  EXPECT_EQ(PlanarOdometryOptions{.rate_hz = NAN}.Validate(), "rate_hz: must be in 0..1e6");
+  EXPECT_EQ(PlanarOdometryOptions{.rate_hz = NAN}.Validate(), "rate_hz: must be in 0..1000");
   EXPECT_EQ(PlanarOdometryOptions{.rotation_scale_sigma = -1.0}.Validate(),
             "rotation_scale_sigma: must not be negative");
 }
