@@ -1,0 +1,86 @@
+#include "sensor-bridge/episode_world.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bus/errors.h"
+#include "common/config.h"
+#include "simulation/planar_map.h"
+#include "simulation/planar_worlds.h"
+
+namespace lcmslam {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr const char* kDefaultWorld = "room5";
+constexpr int kMaxRandomBoxes = 1000;
+
+PlanarWorld NamedWorld(const std::string& name) {
+  std::optional<PlanarWorld> world = NamedPlanarWorld(name);
+  if (!world) RequireValid(fmt::format("planar.world.name: no world is called '{}'", name));
+  return *std::move(world);
+}
+
+PlanarWorld MapWorld(const std::filesystem::path& yaml_path) {
+  try {
+    return WorldOf(ReadPlanarMap(yaml_path));
+  } catch (const BadMap& error) {
+    throw CommandError(ExitCode::kBadInput, fmt::format("planar.world.map: {}", error.what()));
+  }
+}
+
+// What segments and boxes are added to.
+PlanarWorld BaseWorld(config::Episode::World& config, const std::filesystem::path& folder) {
+  const bool has_parts = config.segment_size() > 0 || config.box_size() > 0;
+  if (!config.has_name() && !config.has_map() && !has_parts) config.set_name(kDefaultWorld);
+  if (config.has_name() && config.has_map()) RequireValid("planar.world.map: planar.world.name is set as well");
+  if (config.has_name()) return NamedWorld(config.name());
+  return config.has_map() ? MapWorld(folder / config.map()) : PlanarWorld({});
+}
+
+void AddSegments(const config::Episode::World& config, std::vector<Segment>& walls) {
+  for (int i = 0; i < config.segment_size(); ++i) {
+    const auto& segment = config.segment(i);
+    walls.push_back({Vector2d(segment.x1_m(), segment.y1_m()), Vector2d(segment.x2_m(), segment.y2_m())});
+    if (!walls.back().a.allFinite() || !walls.back().b.allFinite())
+      RequireValid(fmt::format("planar.world.segment[{}]: must be finite", i));
+  }
+}
+
+void AddBoxes(const config::Episode::World& config, std::vector<Segment>& walls) {
+  for (int i = 0; i < config.box_size(); ++i) {
+    const auto& box = config.box(i);
+    for (const double number : {box.x_m(), box.y_m(), box.yaw_rad(), box.length_m(), box.width_m()}) {
+      if (!std::isfinite(number)) RequireValid(fmt::format("planar.world.box[{}]: must be finite", i));
+    }
+    const auto outline = BoxOutline({box.x_m(), box.y_m()}, box.length_m(), box.width_m(), box.yaw_rad());
+    walls.insert(walls.end(), outline.begin(), outline.end());
+  }
+}
+
+PlanarWorld AddRandomBoxes(PlanarWorld world, config::Episode::RandomBoxes& config, uint64_t seed) {
+  int count = 0;
+  double min_gap_m = 0.7;
+  ConfigBinder(config, "planar.world.random_boxes.")("count", count)("min_gap_m", min_gap_m);
+  if (count < 0 || count > kMaxRandomBoxes) RequireValid("planar.world.random_boxes.count: must be in 0..1000");
+  if (min_gap_m < 0.0) RequireValid("planar.world.random_boxes.min_gap_m: must not be negative");
+  return WithRandomBoxes(std::move(world), count, min_gap_m, seed);
+}
+
+}  // namespace
+
+PlanarWorld MakePlanarWorld(config::Episode::World& config, const std::filesystem::path& folder, uint64_t seed) {
+  const PlanarWorld base = BaseWorld(config, folder);
+  std::vector<Segment> walls(base.walls().begin(), base.walls().end());
+  AddSegments(config, walls);
+  AddBoxes(config, walls);
+  PlanarWorld world(std::move(walls), {base.barriers().begin(), base.barriers().end()});
+  return AddRandomBoxes(std::move(world), *config.mutable_random_boxes(), seed);
+}
+
+}  // namespace lcmslam

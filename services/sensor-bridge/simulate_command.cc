@@ -1,0 +1,85 @@
+#include "sensor-bridge/simulate_command.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bus/progress.h"
+#include "bus/signals.h"
+#include "common/config.h"
+#include "sensor-bridge/bridge_output.h"
+#include "sensor-bridge/episode.pb.h"
+#include "sensor-bridge/episode_config.h"
+#include "sensor-bridge/simulate.h"
+
+namespace lcmslam {
+namespace {
+
+struct SimulateOptions {
+  std::string episode_file;
+  std::optional<int64_t> seed;
+  std::vector<std::string> assignments;
+  bool print_config = false;
+  std::filesystem::path bound_file;
+  OutputOptions output;
+};
+
+void WriteBound(const std::filesystem::path& path, const BoundSummary& bound) {
+  std::ofstream file(path, std::ios::binary);
+  file << bound.csv();
+  if (!file.flush()) throw CommandError(ExitCode::kRuntime, fmt::format("{}: cannot be written", path.string()));
+}
+
+ExitCode Simulate(const SimulateOptions& options) {
+  RequireValid(options.output.Validate());
+  config::Episode config;
+  LoadConfig(options.episode_file, config);
+  for (const std::string& assignment : options.assignments) SetConfigField(assignment, config);
+  if (options.seed) config.set_seed(*options.seed);
+  const PlanarEpisode episode = MakePlanarEpisode(config, std::filesystem::path(options.episode_file).parent_path());
+  if (options.print_config) {
+    fmt::print("{}", ConfigText(config));
+    return ExitCode::kOk;
+  }
+
+  CatchStopSignals();
+  BridgeOutput output(options.output);
+  SensorPublisher publisher(output);
+  BoundSummary bound;
+  Progress progress(static_cast<uint64_t>(episode.num_frames()), options.output.quiet);
+  uint64_t done = 0;
+  PublishEpisode(episode, publisher, [&](const PlanarFrame& frame) {
+    bound.Add(frame);
+    progress.Show(++done);
+  });
+  publisher.Finish();
+  output.Finish();
+  if (!options.bound_file.empty()) WriteBound(options.bound_file, bound);
+  if (!options.output.quiet) fmt::print(stderr, "sensor-bridge: {}\n", publisher.Summary());
+  fmt::print("{}\n", bound.Line());
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void AddSimulateCommand(CLI::App& app, std::function<ExitCode()>& command) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* simulate = app.add_subcommand("simulate", "Drive a simulated robot through a simulated world");
+  simulate->add_option("--episode", options->episode_file, "Protocol Buffers text, see episode.proto")->required();
+  simulate->add_option("--seed", options->seed, "instead of the episode's");
+  simulate->add_option("--set", options->assignments, "path=value: set one field of the episode (repeatable)")
+      ->allow_extra_args(false);
+  simulate->add_flag("--print-config", options->print_config, "print the episode with its defaults and end");
+  simulate->add_option("--bound", options->bound_file, "write the Cramer-Rao bound of each scan to this CSV file");
+  AddOutputOptions(*simulate, options->output);
+  simulate->callback([options, &command] { command = [options] { return Simulate(*options); }; });
+}
+
+}  // namespace lcmslam
