@@ -42,6 +42,7 @@ const std::vector<Guarded>& GuardedHeaders() {
       {"the clock", std::regex("chrono|ctime|time\\.h|sys/time\\.h"), {"lib/bus", "services", "replay"}},
       {"the standard streams", std::regex("iostream"), {"services", "replay"}},
       {"a logger", std::regex("spdlog/.*|glog/.*"), {"services", "replay"}},
+      {"libpcap", std::regex("pcap.*"), {"lib/sensors"}},
       {"ROS", std::regex("(rosbag|ros|tf|tf2|[a-z]+_msgs)/.*"), {"lib/sensors"}},
       {"OctoMap", std::regex("octomap/.*|octomath/.*"), {"lib/octo3d"}},
       {"nanoflann", std::regex("nanoflann.*"), {"lib/baselines"}},

@@ -1,0 +1,56 @@
+#include "sensors/velodyne_assembler.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace lcmslam {
+namespace {
+
+constexpr int64_t kHour_us = 3'600'000'000;
+constexpr int64_t kLongestSweep_us = 1'000'000;
+
+}  // namespace
+
+std::vector<Sweep> VelodyneAssembler::Add(const VelodynePacket& packet, int64_t received_utime) {
+  std::vector<Sweep> complete;
+  const auto complete_begun = [&] {
+    if (std::optional<Sweep> sweep = Finish()) complete.push_back(*std::move(sweep));
+  };
+  packet_utime_ = Unwrap(packet.stamp_us, received_utime);
+  for (const VelodynePoint& p : packet.points) {
+    const int64_t utime = packet_utime_ + std::llround(p.delay_us);
+    const bool jumped = begun_ && !begun_->utimes.empty() &&
+                        (utime < begun_->utimes.back() || utime - begun_->utimes.front() >= kLongestSweep_us);
+    const bool cut = last_azimuth_rad_ - p.azimuth_rad > std::numbers::pi;
+    if (jumped || cut) complete_begun();
+    if (cut) begun_.emplace();
+    last_azimuth_rad_ = p.azimuth_rad;
+    if (!begun_) continue;
+    begun_->utimes.push_back(utime);
+    begun_->points.push_back(
+        {.x = p.p_lidar.x(), .y = p.p_lidar.y(), .z = p.p_lidar.z(), .intensity = p.intensity, .ring = p.ring});
+  }
+  return complete;
+}
+
+std::optional<Sweep> VelodyneAssembler::Finish() {
+  std::optional<Begun> begun = std::exchange(begun_, std::nullopt);
+  if (!begun || begun->points.empty()) return std::nullopt;
+  Sweep sweep{.utime = begun->utimes.back(), .points = std::move(begun->points)};
+  for (size_t i = 0; i < sweep.points.size(); ++i) {
+    sweep.points[i].dt_us = static_cast<int32_t>(begun->utimes[i] - sweep.utime);
+  }
+  return sweep;
+}
+
+// The hour may end between two packets.
+int64_t VelodyneAssembler::Unwrap(uint32_t stamp_us, int64_t received_utime) {
+  const std::optional<uint32_t> last_stamp_us = std::exchange(last_stamp_us_, stamp_us);
+  if (!last_stamp_us) return received_utime;
+  int64_t elapsed_us = int64_t{stamp_us} - int64_t{*last_stamp_us};
+  if (elapsed_us < -kHour_us / 2) elapsed_us += kHour_us;
+  return packet_utime_ + elapsed_us;
+}
+
+}  // namespace lcmslam
