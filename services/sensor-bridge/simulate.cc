@@ -40,13 +40,12 @@ void BoundSummary::Add(const PlanarFrame& frame) {
 }
 
 std::string BoundSummary::Line() const {
-  const double scans = static_cast<double>(bounded_);
-  std::string line = "Cramer-Rao bound of one scan: ";
-  line += bounded_ == 0 ? "none"
-                        : fmt::format("position {:.3f} mm, rotation {:.3f} mrad, mean of {}",
-                                      1e3 * sum_position_m_ / scans, 1e3 * sum_yaw_rad_ / scans, bounded_);
-  if (unbounded_ > 0) line += fmt::format("; {} scans do not fix the pose", unbounded_);
-  return line;
+  const int64_t scans = bounded_ + unbounded_;
+  if (bounded_ == 0) return fmt::format("Cramer-Rao bound of one scan: none of {} fixes the pose", scans);
+  const double count = static_cast<double>(bounded_);
+  return fmt::format("Cramer-Rao bound of one scan: position {:.3f} mm, rotation {:.3f} mrad; mean of {}",
+                     1e3 * sum_position_m_ / count, 1e3 * sum_yaw_rad_ / count, bounded_) +
+         (unbounded_ == 0 ? "" : fmt::format(" of {}, the rest do not fix the pose", scans));
 }
 
 }  // namespace lcmslam

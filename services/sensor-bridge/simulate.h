@@ -17,7 +17,7 @@ void PublishEpisode(const PlanarEpisode& episode, SensorPublisher& publisher,
 class BoundSummary {
  public:
   void Add(const PlanarFrame& frame);
-  // "Cramer-Rao bound of one scan, mean of 600: position 0.633 mm, rotation 0.230 mrad".
+  // "Cramer-Rao bound of one scan: position 0.633 mm, rotation 0.230 mrad; mean of 600".
   std::string Line() const;
   // utime_us,position_m,yaw_rad; one row per scan, inf where the scan does not fix the pose.
   const std::string& csv() const { return csv_; }
