@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace lcmslam::octo3d {
+
+// The surfel octree.
+struct MapOptions {
+  double leaf_m = 0.2;          // edge of the finest cells
+  int levels = 4;               // depths that hold surfels: leaf_m, 2 leaf_m, ... 2^(levels-1) leaf_m
+  double range_noise_m = 0.03;  // standard deviation of one point along its beam
+  int min_points = 6;           // fewer points make no surfel
+  double max_thickness = 1.4;   // a surfel's spread across its plane, in range_noise_m
+  double min_flatness = 3.0;    // variance along the plane over variance across it
+  double curvature_per_m =
+      0.01;  // model error of a cell of edge e is curvature_per_m e^2: prefers small cells when all are well known
+  double refit_growth = 1.2;     // a surfel is fitted anew when its points have multiplied by this
+  std::string Validate() const;  // "" or "field: reason"
+};
+
+// How a sweep is condensed into the patches that registration aligns.
+struct PatchOptions {
+  double min_range_m = 0.3;  // nearer points are the carrier itself
+  double max_range_m = 120.0;
+  double cell_m = 0.3;     // patches are planar pieces of octree cells of this edge ...
+  int levels = 3;          // ... or, where those are not planar, of halves of it: cell_m / 2^(levels-1) at last
+  int time_slices = 16;    // a patch spans at most this fraction of the sweep's time
+  int max_patches = 3000;  // more are thinned evenly
+  std::string Validate() const;
+};
+
+// Continuous-time point-to-plane registration of one sweep.
+struct RegistrationOptions {
+  int max_iterations = 12;
+  double kernel = 3.0;             // residuals beyond this many standard deviations lose their weight (Geman-McClure)
+  double model_error_m = 0.01;     // per patch, uncorrelated between patches: what the map never models
+  double step_m = 1e-4;            // converged when the pose moves less ...
+  double step_rad = 1e-4;          // ... and turns less
+  double acceleration_mps2 = 0.5;  // expected changes of velocity: the motion prior
+  double angular_acceleration_radps2 = 0.5;
+  double min_direction_share =
+      2e-3;  // a direction that gets less of the information than this is held by the motion prior
+  std::string Validate() const;
+};
+
+// The search from a rough guess, when registration from the prediction is not believed.
+struct CoarseSearchOptions {
+  int max_patches = 800;
+  int iterations = 25;
+  double reach_m = 1.6;  // a patch looks for its surfel about this far away
+  std::string Validate() const;
+};
+
+// When a registration is believed and what it may do to the map.
+struct TrustOptions {
+  int min_patches = 60;            // matched patches
+  double min_inlier_ratio = 0.75;  // of the patches that met a surfel
+  double max_residual = 2.0;       // weighted rms residual over its prediction
+  int young_sweeps = 5;            // the map is rebuilt from its first sweeps while their motion is still being found
+  double initial_speed_mps = 2.0;  // standard deviation of the velocity before the first sweep
+  double initial_rate_radps = 1.0;
+  double hint_rotation_rad = 0.005;  // standard deviation of an IMU's rotation between two sweeps
+  double hint_translation_m = 0.05;  // and of odometry's translation; its rotation counts as hint_odometry_rad
+  double hint_odometry_rad = 0.02;
+  double max_gap_s = 1.0;  // after a longer silence the old velocity is forgotten
+  std::string Validate() const;
+};
+
+struct Options {
+  MapOptions map;
+  PatchOptions patches;
+  RegistrationOptions registration;
+  CoarseSearchOptions search;
+  TrustOptions trust;
+  bool localise_only = false;    // the map stays as it is
+  std::string Validate() const;  // "" or "group.field: reason"
+};
+
+}  // namespace lcmslam::octo3d

@@ -1,0 +1,145 @@
+#include "octo3d/patches.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "lidar/pose_table.h"
+#include "octo3d/point_statistics.h"
+
+namespace lcmslam::octo3d {
+
+namespace {
+
+constexpr int kAxisBits = 13;  // of the Morton code, per axis
+constexpr int kTimeBits = 5;
+constexpr int kKeyBits = 3 * kAxisBits + kTimeBits;
+constexpr int kRadixBits = 11;
+static_assert(kKeyBits == 4 * kRadixBits);
+
+struct KeyedPoint {
+  uint64_t key;  // time slice, then Morton code of the finest cell
+  uint32_t index;
+};
+
+// Spreads the low 16 bits three apart.
+uint64_t Spread(uint64_t v) {
+  v = (v | v << 16) & 0x001F0000FF0000FFULL;
+  v = (v | v << 8) & 0x100F00F00F00F00FULL;
+  v = (v | v << 4) & 0x10C30C30C30C30C3ULL;
+  return (v | v << 2) & 0x1249249249249249ULL;
+}
+
+// Least significant digit first: stable, so that equal keys keep the order of the sweep.
+void RadixSort(std::vector<KeyedPoint>& points) {
+  std::vector<KeyedPoint> other(points.size());
+  for (int shift = 0; shift < kKeyBits; shift += kRadixBits) {
+    std::array<uint32_t, 1 << kRadixBits> starts = {};
+    for (const KeyedPoint& p : points) ++starts[(p.key >> shift) & (starts.size() - 1)];
+    uint32_t sum = 0;
+    for (uint32_t& start : starts) sum += std::exchange(start, sum);
+    for (const KeyedPoint& p : points) other[starts[(p.key >> shift) & (starts.size() - 1)]++] = p;
+    points.swap(other);
+  }
+}
+
+class PatchMaker {
+ public:
+  PatchMaker(const Sweep& sweep, const PatchOptions& options, double range_noise_m)
+      : sweep_(sweep),
+        options_(options),
+        max_variance_(kMaxThickness * kMaxThickness * range_noise_m * range_noise_m),
+        first_dt_us_(FirstPointTime(sweep)) {}
+
+  std::vector<Patch> Make() {
+    std::vector<KeyedPoint> points = KeyPoints();
+    RadixSort(points);
+    Split(points, options_.levels);  // one level above the coarsest: only divides
+    return std::move(patches_);
+  }
+
+ private:
+  std::vector<KeyedPoint> KeyPoints() const {
+    const double finest_m = options_.cell_m / (1 << (options_.levels - 1));
+    const double per_cell = 1.0 / finest_m;
+    const double limit = 1 << (kAxisBits - 1);
+    const double min2 = options_.min_range_m * options_.min_range_m, max2 = options_.max_range_m * options_.max_range_m;
+    std::vector<KeyedPoint> points;
+    points.reserve(sweep_.points.size());
+    for (uint32_t i = 0; i < sweep_.points.size(); ++i) {
+      const SweepPoint& p = sweep_.points[i];
+      const double range2 = double{p.x} * p.x + double{p.y} * p.y + double{p.z} * p.z;
+      if (!(range2 >= min2 && range2 <= max2)) continue;  // also NaN
+      const double x = p.x * per_cell + limit, y = p.y * per_cell + limit, z = p.z * per_cell + limit;
+      const auto inside = [&](double v) { return v >= 0.0 && v < 2.0 * limit; };
+      if (!inside(x) || !inside(y) || !inside(z)) continue;
+      const uint64_t slice = PoseTable::Slot(p.dt_us, first_dt_us_) * options_.time_slices / PoseTable::kEntries;
+      points.push_back({slice << (3 * kAxisBits) | Spread(static_cast<uint64_t>(x)) |
+                            Spread(static_cast<uint64_t>(y)) << 1 | Spread(static_cast<uint64_t>(z)) << 2,
+                        i});
+    }
+    return points;
+  }
+
+  // points: of one cell, `level` halvings above the finest.
+  void Visit(std::span<const KeyedPoint> points, int level) {
+    if (level > 0 && points.size() < kMinPlanePoints) return Split(points, level);
+    const SweepPoint& first = sweep_.points[points.front().index];
+    const Eigen::Vector3d reference(first.x, first.y, first.z);
+    PointStatistics statistics;
+    int64_t dt_us = 0;
+    for (const KeyedPoint& keyed : points) {
+      const SweepPoint& p = sweep_.points[keyed.index];
+      statistics.Add(Eigen::Vector3d(p.x, p.y, p.z) - reference);
+      dt_us += p.dt_us;
+    }
+    // The variance of a sample of n varies by sqrt(2 / n) of itself.
+    const double max_variance = max_variance_ * (1.0 + std::sqrt(2.0 / statistics.count));
+    if (level > 0 && FitPlane(statistics).variances[0] > max_variance) return Split(points, level);
+    const auto mean_dt_us = static_cast<int32_t>(dt_us / static_cast<int64_t>(points.size()));
+    patches_.push_back({reference + statistics.Mean(), statistics.Covariance().cast<float>(),
+                        static_cast<float>(statistics.count),
+                        static_cast<uint16_t>(PoseTable::Slot(mean_dt_us, first_dt_us_))});
+  }
+
+  // Visits the cells one level finer.
+  void Split(std::span<const KeyedPoint> points, int level) {
+    const int shift = 3 * (level - 1);
+    while (!points.empty()) {
+      const uint64_t cell = points.front().key >> shift;
+      const auto end = std::ranges::find_if(points, [&](const KeyedPoint& p) { return p.key >> shift != cell; });
+      const auto size = static_cast<size_t>(end - points.begin());
+      Visit(points.first(size), level - 1);
+      points = points.subspan(size);
+    }
+  }
+
+  static constexpr size_t kMinPlanePoints = 5;
+  static constexpr double kMaxThickness = 1.2;  // of a planar patch, in range_noise_m
+
+  const Sweep& sweep_;
+  const PatchOptions& options_;
+  const double max_variance_;
+  const int32_t first_dt_us_;
+  std::vector<Patch> patches_;
+};
+
+// Every k-th: k not a whole number, so that the kept ones spread evenly.
+void Thin(std::vector<Patch>& patches, size_t max_patches) {
+  const size_t size = patches.size();
+  if (size <= max_patches) return;
+  for (size_t i = 0; i < max_patches; ++i) patches[i] = patches[i * size / max_patches];
+  patches.resize(max_patches);
+}
+
+}  // namespace
+
+std::vector<Patch> MakePatches(const Sweep& sweep, const PatchOptions& options, double range_noise_m) {
+  std::vector<Patch> patches = PatchMaker(sweep, options, range_noise_m).Make();
+  Thin(patches, static_cast<size_t>(options.max_patches));
+  return patches;
+}
+
+}  // namespace lcmslam::octo3d

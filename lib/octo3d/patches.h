@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "lidar/sweep.h"
+#include "octo3d/options.h"
+
+namespace lcmslam::octo3d {
+
+// A small planar piece of one sweep: to a plane, its mean is worth all of its points.
+struct Patch {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();        // m, lidar frame at the patch's own time
+  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();  // m^2, of its points
+  float count = 0.0F;                                    // points
+  uint16_t slot = 0;                                     // of the sweep's PoseTable
+};
+
+// Condenses a sweep by an octree over its points (one per time slice): planar cells give their mean, others are split
+// down to the finest. Points out of the range limits and non-finite ones are skipped. Order and result depend on the
+// input only.
+std::vector<Patch> MakePatches(const Sweep& sweep, const PatchOptions& options, double range_noise_m);
+
+}  // namespace lcmslam::octo3d

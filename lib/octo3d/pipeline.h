@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "geometry/pose3.h"
+#include "lidar/sweep.h"
+#include "octo3d/motion.h"
+#include "octo3d/options.h"
+#include "octo3d/registration.h"
+#include "octo3d/surfel_map.h"
+
+namespace lcmslam::octo3d {
+
+enum class SweepStatus {
+  kStarted,   // the first sweep made the map
+  kTracking,  // registered and believed
+  kDoubtful,  // registered badly or not at all: the pose is the prediction, the map was not touched
+  kNoPoints,  // nothing usable in the sweep: the pose is the prediction
+  kStale,     // not later than the sweep before: ignored
+};
+
+// What else is known of the motion since the last sweep, in the lidar's frame at that time.
+struct MotionHint {
+  std::optional<Eigen::Quaterniond> rotation;  // from a gyroscope
+  std::optional<Pose3> odometry;
+};
+
+struct Result {
+  SweepStatus status = SweepStatus::kNoPoints;
+  int64_t utime = 0;                                           // the sweep's
+  Pose3 T_map_body;                                            // at utime, the time of the last point; body = lidar
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          // m/s, map frame
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // rad/s, map frame
+  Matrix6 covariance = Matrix6::Zero();  // of the pose: translation, rotation vector, both in the map frame
+  Eigen::Matrix<double, 6, Eigen::Dynamic> held{6, 0};  // unobservable directions, kept by the motion prior
+  int iterations = 0;
+  int patches = 0;
+  int matched = 0;
+  double inlier_ratio = 0.0;
+  double residual_m = 0.0;
+  bool inserted = false;
+};
+
+// NOctoSLAM: registers each sweep of a multi-line lidar to a surfel octree and adds it. Map frame = the lidar's frame
+// at the end of the first sweep, unless SetPose() was called before. Not thread-safe; same input, same output.
+class Pipeline {
+ public:
+  explicit Pipeline(const Options& options);  // Validate()d
+
+  Result Process(const Sweep& sweep, const MotionHint& hint = {});
+
+  void Reset();                           // empties the map, forgets the motion
+  void SetPose(const Pose3& T_map_body);  // at rest there; keeps the map
+  void SetLocaliseOnly(bool localise_only) { options_.localise_only = localise_only; }
+  void SetMap(SurfelMap map);  // a loaded map; the next sweep is registered to it
+
+  const SurfelMap& map() const { return map_; }
+  const Options& options() const { return options_; }
+
+ private:
+  struct PlacedSweep {
+    Sweep sweep;
+    int32_t first_dt_us = 0;
+    MotionSegment motion;
+  };
+
+  bool IsStale(const Sweep& sweep);
+  Result Start(const Sweep& sweep);
+  RegistrationResult RegisterSweep(const TimedPatches& patches, const RelativeMotion& hint);
+  RegistrationResult RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint);
+  void Restraighten(const MotionState& last);
+  bool IsGood(const RegistrationResult& registration) const;
+  void Insert(const PlacedSweep& placed);
+  RelativeMotion ToRelativeMotion(const MotionHint& hint) const;
+  Result MakeResult(SweepStatus status, const RegistrationResult& registration) const;
+
+  Options options_;
+  SurfelMap map_;
+  std::optional<int64_t> utime_;    // of the last sweep
+  StateBelief belief_;              // at utime_
+  std::vector<PlacedSweep> young_;  // the first sweeps, while the map is young
+};
+
+}  // namespace lcmslam::octo3d

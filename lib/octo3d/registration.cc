@@ -1,0 +1,221 @@
+#include "octo3d/registration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "lidar/pose_table.h"
+#include "octo3d/observability.h"
+#include "octo3d/sweep_information.h"
+
+namespace lcmslam::octo3d {
+
+namespace {
+
+using Matrix24 = Eigen::Matrix<double, 24, 24>;
+using Vector24 = Eigen::Matrix<double, 24, 1>;
+
+struct Association {
+  Eigen::Vector3d asked = Eigen::Vector3d::Constant(1e9);  // where the map was asked
+  PlaneMatch plane;
+};
+
+// The information about `to` alone: Schur complement.
+Matrix12 MarginaliseFrom(const Matrix24& H) {
+  const Matrix12 H_to_from = H.bottomLeftCorner<12, 12>();
+  const Matrix12 schur =
+      H.bottomRightCorner<12, 12>() - H_to_from * H.topLeftCorner<12, 12>().ldlt().solve(H_to_from.transpose());
+  return 0.5 * (schur + schur.transpose());
+}
+
+class Registrar {
+ public:
+  Registrar(const SurfelMap& map, const TimedPatches& sweep, const StateBelief& from, const RelativeMotion& hint,
+            const MotionSegment& guess, const RegistrationOptions& options)
+      : map_(map),
+        sweep_(sweep),
+        belief_(from),
+        hint_(hint),
+        guess_(guess),
+        options_(options),
+        associations_(sweep.patches.size()) {}
+
+  RegistrationResult Run() {
+    Predict();
+    for (result_.iterations = 1; result_.iterations <= options_.max_iterations; ++result_.iterations) {
+      Linearise();
+      if (result_.matched < kMinMatches) break;
+      const bool small = Step();
+      const bool narrow = kernel_floor_m_ <= 0.0;
+      kernel_floor_m_ = kernel_floor_m_ > kNarrowM ? 0.4 * kernel_floor_m_ : 0.0;
+      if (small && narrow) {
+        result_.status = RegistrationStatus::kConverged;
+        break;
+      }
+      result_.status = RegistrationStatus::kIterationLimit;
+    }
+    result_.iterations = std::min(result_.iterations, options_.max_iterations);
+    Summarise();
+    return result_;
+  }
+
+ private:
+  void Predict();
+  void Linearise();
+  bool LiesFlat(const Patch& patch, const Eigen::Vector3d& normal) const;
+  void AddPriors(Matrix24& H, Vector24& b) const;
+  bool Step();
+  void Summarise();
+
+  static constexpr int kMinMatches = 12;  // twice the unknowns of a pose
+  static constexpr double kNarrowM = 0.02;
+  static constexpr double kMaxThickness = 1.1;  // of a patch across the plane it is matched to, in range_noise_m
+  static constexpr double kReuseM = 0.005;      // a patch that moved less keeps its plane
+
+  const SurfelMap& map_;
+  const TimedPatches& sweep_;
+  const StateBelief& belief_;
+  const RelativeMotion& hint_;
+  const MotionSegment& guess_;
+  const RegistrationOptions& options_;
+
+  std::vector<Association> associations_;
+  SweepInformation measured_;
+  Matrix24 H_ = Matrix24::Zero();
+  double kernel_floor_m_ = 0.0;
+  RegistrationResult result_;
+};
+
+void Registrar::Predict() {
+  result_.motion = PredictMotion(belief_, hint_, sweep_.duration_s);
+  Matrix24 H = Matrix24::Zero();
+  Vector24 b = Vector24::Zero();
+  AddPriors(H, b);
+  result_.prediction = {result_.motion.to(), MarginaliseFrom(H)};
+
+  // How far off the prediction may be decides how far the first look reaches.
+  const Vector6 spread = result_.prediction.information.ldlt().solve(Matrix12::Identity()).diagonal().head<6>();
+  constexpr double kLever = 3.0;  // m
+  kernel_floor_m_ = 2.0 * std::sqrt(spread.head<3>().mean() + kLever * kLever * spread.tail<3>().mean());
+  result_.motion = guess_;
+}
+
+void Registrar::Linearise() {
+  const PoseTable poses = [&] {
+    const double sweep_us = 1e6 * sweep_.duration_s;
+    return PoseTable(sweep_.first_dt_us, [&](double dt_us) { return result_.motion.At(1.0 + dt_us / sweep_us); });
+  }();
+  const double range_var = map_.options().range_noise_m * map_.options().range_noise_m;
+  const double model_var = options_.model_error_m * options_.model_error_m;
+  measured_.Clear();
+  int matched = 0, inliers = 0;
+  double squares = 0.0, normalised = 0.0;
+  for (size_t i = 0; i < sweep_.patches.size(); ++i) {
+    const Patch& patch = sweep_.patches[i];
+    const Eigen::Vector3d lever = poses[patch.slot].R_map_lidar * patch.mean;
+    const Eigen::Vector3d p = lever + poses[patch.slot].t_map_lidar;
+    Association& association = associations_[i];
+    if ((p - association.asked).squaredNorm() > kReuseM * kReuseM) {
+      association = {p, map_.Find(p)};
+      association.plane.found &= LiesFlat(patch, poses[patch.slot].R_map_lidar.transpose() * association.plane.normal);
+    }
+    const PlaneMatch& plane = association.plane;
+    if (!plane.found) continue;
+
+    const double residual = plane.normal.dot(p - plane.mean);
+    const double variance = range_var / patch.count + plane.variance + model_var;
+    // A patch at the border of its surface may hold one side of the noise only: judge it by the noise of single points.
+    const double kernel = options_.kernel * std::sqrt(range_var + plane.variance + model_var) + kernel_floor_m_;
+    const double ratio = kernel * kernel / (kernel * kernel + residual * residual);
+    Vector6 J;
+    J << plane.normal, lever.cross(plane.normal);
+    measured_.Add(patch.slot, J, residual, ratio * ratio / variance);
+    ++matched;
+    if (std::abs(residual) < kernel) {
+      ++inliers;
+      squares += residual * residual;
+      normalised += residual * residual / (range_var + plane.variance + model_var);
+    }
+  }
+  result_.matched = matched;
+  result_.inlier_ratio = matched > 0 ? static_cast<double>(inliers) / matched : 0.0;
+  result_.residual_m = inliers > 0 ? std::sqrt(squares / inliers) : 0.0;
+  result_.normalised_residual = inliers > 0 ? std::sqrt(normalised / inliers) : 0.0;
+}
+
+// Whether the patch extends along the plane of this normal (lidar frame) and not across it, as a piece of floor found
+// next to a wall does.
+bool Registrar::LiesFlat(const Patch& patch, const Eigen::Vector3d& normal) const {
+  const Eigen::Vector3f n = normal.cast<float>();
+  const double limit = kMaxThickness * kMaxThickness * map_.options().range_noise_m * map_.options().range_noise_m;
+  return n.dot(patch.covariance * n) <= limit * (1.0 + 2.0 * std::sqrt(2.0 / patch.count));
+}
+
+void Registrar::AddPriors(Matrix24& H, Vector24& b) const {
+  H.topLeftCorner<12, 12>() += belief_.information;
+  b.head<12>() += belief_.information * Difference(result_.motion.from(), belief_.mean);
+
+  const MotionPrior prior =
+      EvaluateMotionPrior(result_.motion, options_.acceleration_mps2, options_.angular_acceleration_radps2);
+  Eigen::Matrix<double, 12, 24> J;
+  J << -prior.transition, Matrix12::Identity();
+  H += J.transpose() * prior.information * J;
+  b += J.transpose() * (prior.information * prior.error);
+
+  if (hint_.information.isZero()) return;
+  const Pose3& from = result_.motion.from().T_map_body;
+  const Pose3 expected = from * hint_.T_from_to;
+  const Pose3& to = result_.motion.to().T_map_body;
+  Vector6 error;
+  error << to.translation - expected.translation, LogRotation(to.rotation * expected.rotation.conjugate());
+  const Matrix6 W = hint_.information.asDiagonal();
+  Eigen::Matrix<double, 6, 24> J_hint = Eigen::Matrix<double, 6, 24>::Zero();
+  J_hint.block<6, 6>(0, 0) = -Matrix6::Identity();
+  J_hint.block<6, 6>(0, 12) = Matrix6::Identity();
+  H += J_hint.transpose() * W * J_hint;
+  b += J_hint.transpose() * (W * error);
+}
+
+// One Gauss-Newton step; true when the pose at the sweep's end hardly moved.
+bool Registrar::Step() {
+  result_.measured = measured_.Total();
+  const Observability observability = FindUnobservable(result_.measured, options_.min_direction_share);
+  result_.held = observability.held;
+
+  H_.setZero();
+  Vector24 b = Vector24::Zero();
+  measured_.AddTo(result_.motion, sweep_.first_dt_us, observability.projection, H_, b);
+  AddPriors(H_, b);
+  const Vector24 delta = -H_.ldlt().solve(b);
+  result_.motion = MotionSegment(Add(result_.motion.from(), delta.head<12>()),
+                                 Add(result_.motion.to(), delta.tail<12>()), sweep_.duration_s);
+  return delta.segment<3>(12).norm() < options_.step_m && delta.segment<3>(15).norm() < options_.step_rad;
+}
+
+void Registrar::Summarise() {
+  if (result_.status == RegistrationStatus::kTooFewPatches) {
+    result_.belief = result_.prediction;
+    return;
+  }
+  result_.belief = {result_.motion.to(), MarginaliseFrom(H_)};
+}
+
+}  // namespace
+
+MotionSegment PredictMotion(const StateBelief& from, const RelativeMotion& hint, double duration_s) {
+  MotionState to = Extrapolate(from.mean, duration_s);
+  const Pose3 hinted = from.mean.T_map_body * hint.T_from_to;
+  if (hint.information[0] > 0.0) to.T_map_body.translation = hinted.translation;
+  if (hint.information[3] > 0.0) to.T_map_body.rotation = hinted.rotation;
+  return MotionSegment(from.mean, to, duration_s);
+}
+
+RegistrationResult Register(const SurfelMap& map, const TimedPatches& sweep, const StateBelief& from,
+                            const RelativeMotion& hint, const MotionSegment& guess,
+                            const RegistrationOptions& options) {
+  return Registrar(map, sweep, from, hint, guess, options).Run();
+}
+
+}  // namespace lcmslam::octo3d

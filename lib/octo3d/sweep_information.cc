@@ -1,0 +1,55 @@
+#include "octo3d/sweep_information.h"
+
+#include "lidar/pose_table.h"
+
+namespace lcmslam::octo3d {
+
+namespace {
+constexpr int kSlotsPerBin = PoseTable::kEntries / SweepInformation::kBins;
+}
+
+void SweepInformation::Add(int slot, const Vector6& J, double residual, double weight) {
+  Bin& bin = bins_[slot / kSlotsPerBin];
+  bin.used = true;
+  int k = 0;
+  for (int i = 0; i < 6; ++i) {
+    const double wJ = weight * J[i];
+    for (int j = i; j < 6; ++j) bin.upper[k++] += wJ * J[j];
+    bin.b[i] += wJ * residual;
+  }
+}
+
+Matrix6 SweepInformation::Bin::Full() const {
+  Matrix6 H;
+  int k = 0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) H(i, j) = H(j, i) = upper[k++];
+  }
+  return H;
+}
+
+Matrix6 SweepInformation::Total() const {
+  Matrix6 H = Matrix6::Zero();
+  for (const Bin& bin : bins_) {
+    if (bin.used) H += bin.Full();
+  }
+  return H;
+}
+
+void SweepInformation::AddTo(const MotionSegment& motion, int32_t first_dt_us, const Matrix6& projection,
+                             Eigen::Matrix<double, 24, 24>& H, Eigen::Matrix<double, 24, 1>& b) const {
+  for (int i = 0; i < kBins; ++i) {
+    if (!bins_[i].used) continue;
+    const double middle_slot = (i + 0.5) * kSlotsPerBin - 0.5;
+    const double dt_us = first_dt_us >= 0 ? 0.0 : first_dt_us * (1.0 - (middle_slot + 0.5) / PoseTable::kEntries);
+    const Eigen::Vector4d h = motion.Influence(1.0 + 1e-6 * dt_us / motion.duration_s());
+    const Matrix6 H_bin = projection * bins_[i].Full() * projection.transpose();
+    const Vector6 b_bin = projection * Eigen::Map<const Vector6>(bins_[i].b.data());
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < 4; ++column) H.block<6, 6>(6 * row, 6 * column) += h[row] * h[column] * H_bin;
+      b.segment<6>(6 * row) += h[row] * b_bin;
+    }
+  }
+}
+
+}  // namespace lcmslam::octo3d
