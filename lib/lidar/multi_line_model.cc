@@ -31,7 +31,7 @@ std::vector<Laser> Interleaved(int count, double lowest_deg, double step_deg, do
 }  // namespace
 
 std::string MultiLineModel::Validate() const {
-  if (lasers.empty()) return "lasers: must not be empty";
+  if (lasers.empty() || lasers.size() > 1000) return "lasers: must be 1..1000";
   for (size_t i = 0; i < lasers.size(); ++i) {
     if (!std::isfinite(lasers[i].elevation_rad + lasers[i].azimuth_rad + lasers[i].height_m))
       return "lasers: must be finite";
@@ -39,7 +39,9 @@ std::string MultiLineModel::Validate() const {
     if (!(lasers[i].fire_delay_us >= previous_us)) return "lasers: must be in firing order";
   }
   if (!(firing_cycle_us > lasers.back().fire_delay_us)) return "firing_cycle_us: must exceed the last fire_delay_us";
-  if (!(1e6 * turn_s >= firing_cycle_us) || !std::isfinite(turn_s)) return "turn_s: must hold a firing cycle";
+  if (!(firing_cycle_us >= 1.0)) return "firing_cycle_us: must be at least 1";
+  if (!(turn_s >= 1e-3 && turn_s <= 10.0)) return "turn_s: must be in 0.001..10";
+  if (!(1e6 * turn_s >= firing_cycle_us)) return "turn_s: must hold a firing cycle";
   if (!(min_range_m >= 0.0)) return "min_range_m: must not be negative";
   if (!(max_range_m > min_range_m) || !std::isfinite(max_range_m)) return "max_range_m: must exceed min_range_m";
   return "";

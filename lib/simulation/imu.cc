@@ -28,7 +28,7 @@ class Noise {
 
 std::string ImuOptions::Validate() const {
   const auto is_bad = [](double value) { return !(value >= 0.0) || !std::isfinite(value); };
-  if (is_bad(rate_hz) || rate_hz > 1e5) return "rate_hz: must be in 0..1e5";
+  if (is_bad(rate_hz) || rate_hz > 1e3) return "rate_hz: must be in 0..1000";
   if (is_bad(gyroscope_noise_radps_per_sqrt_hz)) return "gyroscope_noise_radps_per_sqrt_hz: must not be negative";
   if (is_bad(gyroscope_bias_sigma_radps)) return "gyroscope_bias_sigma_radps: must not be negative";
   if (is_bad(gyroscope_walk_radps2_per_sqrt_hz)) return "gyroscope_walk_radps2_per_sqrt_hz: must not be negative";

@@ -79,14 +79,13 @@ Tilt ThrustTilt(const Vector3d& acceleration_mps2, double yaw_rad) {
 }  // namespace
 
 std::string SpatialCarrierOptions::Validate() const {
-  if (!(max_speed_mps > 0.0) || !std::isfinite(max_speed_mps)) return "max_speed_mps: must be positive";
-  if (!(max_turn_rate_radps > 0.0) || !std::isfinite(max_turn_rate_radps))
-    return "max_turn_rate_radps: must be positive";
+  if (!(max_speed_mps > 0.0 && max_speed_mps <= 100.0)) return "max_speed_mps: must be in (0, 100]";
+  if (!(max_turn_rate_radps > 0.0 && max_turn_rate_radps <= 100.0)) return "max_turn_rate_radps: must be in (0, 100]";
   if (!(max_tilt_rad >= 0.0 && max_tilt_rad <= kMaxTilt_rad)) return "max_tilt_rad: must be in 0..0.6";
-  if (!std::isfinite(min_height_m)) return "min_height_m: must be finite";
-  if (!(max_height_m >= min_height_m) || !std::isfinite(max_height_m)) return "max_height_m: must reach min_height_m";
-  if (!(clearance_m > 0.0) || !std::isfinite(clearance_m)) return "clearance_m: must be positive";
-  if (!(rest_s >= 0.0) || rest_s > 1e6) return "rest_s: must be in 0..1e6";
+  if (!(std::abs(min_height_m) <= 100.0)) return "min_height_m: must be in -100..100";
+  if (!(max_height_m >= min_height_m && max_height_m <= 100.0)) return "max_height_m: must be in min_height_m..100";
+  if (!(clearance_m > 0.0 && clearance_m <= 10.0)) return "clearance_m: must be in (0, 10]";
+  if (!(rest_s >= 0.0 && rest_s <= 1e5)) return "rest_s: must be in 0..1e5";
   return "";
 }
 

@@ -4,9 +4,15 @@
 #include <utility>
 
 namespace lcmslam {
+namespace {
+
+constexpr int64_t kLatestStart = 4'000'000'000'000'000'000;
+
+}  // namespace
 
 std::string SpatialEpisodeOptions::Validate() const {
-  if (!(duration_s > 0.0) || duration_s > 1e6) return "duration_s: must be in (0, 1e6]";
+  if (!(duration_s > 0.0 && duration_s <= 1e5)) return "duration_s: must be in (0, 1e5]";
+  if (start_utime < 0 || start_utime > kLatestStart) return "start_utime: must be in 0..4e18";
   if (const std::string error = lidar.Validate(); !error.empty()) return "lidar." + error;
   if (const std::string error = carrier.Validate(); !error.empty()) return "carrier." + error;
   if (const std::string error = imu.Validate(); !error.empty()) return "imu." + error;

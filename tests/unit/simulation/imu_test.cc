@@ -107,7 +107,7 @@ TEST(SimulateImu, NoiseAndBiasAsTheirDensitiesSay) {
 
 TEST(ImuOptions, NamesTheWrongField) {
   EXPECT_EQ(ImuOptions{}.Validate(), "");
-  EXPECT_EQ(ImuOptions{.rate_hz = NAN}.Validate(), "rate_hz: must be in 0..1e5");
+  EXPECT_EQ(ImuOptions{.rate_hz = NAN}.Validate(), "rate_hz: must be in 0..1000");
   EXPECT_EQ(ImuOptions{.accelerometer_bias_sigma_mps2 = -1.0}.Validate(),
             "accelerometer_bias_sigma_mps2: must not be negative");
 }

@@ -254,7 +254,7 @@ TEST(MultiLineLidarOptions, NamesTheWrongField) {
   EXPECT_EQ(MultiLineLidarOptions{}.Validate(), "");
   EXPECT_EQ(MultiLineLidarOptions{.range_sigma_m = -1.0}.Validate(), "range_sigma_m: must not be negative");
   EXPECT_EQ(MultiLineLidarOptions{.dropout_probability = NAN}.Validate(), "dropout_probability: must be in 0..1");
-  EXPECT_EQ(MultiLineLidarOptions{.model = {.lasers = {}}}.Validate(), "model.lasers: must not be empty");
+  EXPECT_EQ(MultiLineLidarOptions{.model = {.lasers = {}}}.Validate(), "model.lasers: must be 1..1000");
   MultiLineLidarOptions options;
   std::swap(options.model.lasers[0], options.model.lasers[1]);
   EXPECT_EQ(options.Validate(), "model.lasers: must be in firing order");

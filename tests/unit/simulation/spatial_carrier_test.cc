@@ -109,12 +109,12 @@ TEST(CarryAround, NoneWithoutRoom) {
 
 TEST(SpatialCarrierOptions, NamesTheWrongField) {
   EXPECT_EQ(SpatialCarrierOptions{}.Validate(), "");
-  EXPECT_EQ(SpatialCarrierOptions{.max_speed_mps = 0.0}.Validate(), "max_speed_mps: must be positive");
-  EXPECT_EQ(SpatialCarrierOptions{.max_turn_rate_radps = NAN}.Validate(), "max_turn_rate_radps: must be positive");
+  EXPECT_EQ(SpatialCarrierOptions{.max_speed_mps = 0.0}.Validate(), "max_speed_mps: must be in (0, 100]");
+  EXPECT_EQ(SpatialCarrierOptions{.max_turn_rate_radps = NAN}.Validate(), "max_turn_rate_radps: must be in (0, 100]");
   EXPECT_EQ(SpatialCarrierOptions{.max_tilt_rad = 1.0}.Validate(), "max_tilt_rad: must be in 0..0.6");
-  EXPECT_EQ(SpatialCarrierOptions{.max_height_m = 0.1}.Validate(), "max_height_m: must reach min_height_m");
-  EXPECT_EQ(SpatialCarrierOptions{.clearance_m = 0.0}.Validate(), "clearance_m: must be positive");
-  EXPECT_EQ(SpatialCarrierOptions{.rest_s = -1.0}.Validate(), "rest_s: must be in 0..1e6");
+  EXPECT_EQ(SpatialCarrierOptions{.max_height_m = 0.1}.Validate(), "max_height_m: must be in min_height_m..100");
+  EXPECT_EQ(SpatialCarrierOptions{.clearance_m = 0.0}.Validate(), "clearance_m: must be in (0, 10]");
+  EXPECT_EQ(SpatialCarrierOptions{.rest_s = -1.0}.Validate(), "rest_s: must be in 0..1e5");
 }
 
 }  // namespace

@@ -68,14 +68,14 @@ TEST(SpatialEpisode, RefusesBadOptionsAndWorldsWithoutRoom) {
 
 TEST(SpatialEpisode, ValidateNamesTheField) {
   EXPECT_EQ(SpatialEpisodeOptions{}.Validate(), "");
-  EXPECT_EQ(SpatialEpisodeOptions{.duration_s = NAN}.Validate(), "duration_s: must be in (0, 1e6]");
+  EXPECT_EQ(SpatialEpisodeOptions{.duration_s = NAN}.Validate(), "duration_s: must be in (0, 1e5]");
   SpatialEpisodeOptions options;
   options.lidar.range_sigma_m = -1.0;
   EXPECT_EQ(options.Validate(), "lidar.range_sigma_m: must not be negative");
   options = {.carrier = {.clearance_m = -1.0}};
-  EXPECT_EQ(options.Validate(), "carrier.clearance_m: must be positive");
+  EXPECT_EQ(options.Validate(), "carrier.clearance_m: must be in (0, 10]");
   options = {.imu = {.rate_hz = -1.0}};
-  EXPECT_EQ(options.Validate(), "imu.rate_hz: must be in 0..1e5");
+  EXPECT_EQ(options.Validate(), "imu.rate_hz: must be in 0..1000");
 }
 
 TEST(SpatialWorlds, ByName) {
