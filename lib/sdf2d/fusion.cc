@@ -1,6 +1,7 @@
 #include "sdf2d/fusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lcmslam::sdf2d {
@@ -32,6 +33,29 @@ bool Contradicts(float distance_m, float information, const VertexMeasurement& s
   return difference * difference > options.change_sigmas * options.change_sigmas * variance;
 }
 
+void FuseVertex(const VertexMeasurement& seen, int i, const FusionOptions& options, SdfSheet* sheet) {
+  float& information = sheet->information[i];
+  float& distance_m = sheet->distance_m[i];
+  if (information <= 0.0F) {
+    distance_m = seen.distance_m;
+    information = seen.information;
+    return;
+  }
+  if (Contradicts(distance_m, information, seen, options)) information *= static_cast<float>(options.change_keep);
+  const float total = information + seen.information;
+  distance_m += seen.information / total * (seen.distance_m - distance_m);
+  information = std::min(total, static_cast<float>(options.max_information));
+}
+
+// A beam that has gone ever deeper behind a surface contradicts it.
+bool Weaken(int i, float before_m, float behind_m, const FusionOptions& options, SdfSheet* sheet) {
+  constexpr float kForgotten = 1.0F;  // 1/m^2; less information is none
+  if (!(sheet->distance_m[i] < behind_m && sheet->distance_m[i] < before_m)) return false;
+  sheet->information[i] *= static_cast<float>(options.carve_keep);
+  if (sheet->information[i] < kForgotten) sheet->Forget(i);
+  return true;
+}
+
 }  // namespace
 
 void Fuse(const ScanField& field, const FusionOptions& options, SdfMap* map) {
@@ -39,24 +63,13 @@ void Fuse(const ScanField& field, const FusionOptions& options, SdfMap* map) {
   for (const VertexMeasurement& seen : field.measurements()) {
     SdfTile& tile = writer.TileOf(seen.x, seen.y);
     const int i = SdfTile::IndexOf(seen.x, seen.y);
-    float& information = tile.information[i];
-    float& distance_m = tile.distance_m[i];
+    FuseVertex(seen, i, options, &tile.sheets[seen.sheet]);
     tile.revision = map->revision();
-    if (information <= 0.0F) {
-      distance_m = seen.distance_m;
-      information = seen.information;
-      continue;
-    }
-    if (Contradicts(distance_m, information, seen, options)) information *= static_cast<float>(options.change_keep);
-    const float total = information + seen.information;
-    distance_m += seen.information / total * (seen.distance_m - distance_m);
-    information = std::min(total, static_cast<float>(options.max_information));
   }
 }
 
 void Carve(std::span<const Vector2d> p_body, const Vector2d& origin_body, const Pose2& T_map_body,
            const NoiseModel& noise, int first, const FusionOptions& options, SdfMap* map) {
-  constexpr float kForgotten = 1.0F;  // 1/m^2; less information is none
   const double cell_m = map->cell_m();
   const auto behind_m = static_cast<float>(-cell_m);
   const Vector2d origin = (T_map_body * origin_body) / cell_m;
@@ -70,18 +83,21 @@ void Carve(std::span<const Vector2d> p_body, const Vector2d& origin_body, const 
         1.0;
     const int steps = static_cast<int>(length - margin);
     const Vector2d step = (end - origin) / length;
+    std::array<float, SdfTile::kSheets> before_m;  // at the last vertex
+    before_m.fill(std::numeric_limits<float>::quiet_NaN());
     Vector2d at = origin + Vector2d(0.5, 0.5);
     for (int k = 0; k < steps; ++k, at += step) {
       const auto x = static_cast<int32_t>(std::floor(at.x()));
       const auto y = static_cast<int32_t>(std::floor(at.y()));
       SdfTile& tile = writer.TileOf(x, y);
       const int v = SdfTile::IndexOf(x, y);
-      if (tile.distance_m[v] < behind_m) {
-        tile.information[v] *= static_cast<float>(options.carve_keep);
-        if (tile.information[v] < kForgotten) {
-          tile.information[v] = 0.0F;
-          tile.distance_m[v] = std::numeric_limits<float>::quiet_NaN();
-        }
+      bool contradicted = false;
+      for (int sheet = 0; sheet < SdfTile::kSheets; ++sheet) {
+        const float distance_m = tile.sheets[sheet].distance_m[v];
+        contradicted |= Weaken(v, before_m[sheet], behind_m, options, &tile.sheets[sheet]);
+        before_m[sheet] = distance_m;
+      }
+      if (contradicted) {
         tile.revision = map->revision();
       } else if (tile.seen_through[v] < 255) {
         ++tile.seen_through[v];

@@ -25,7 +25,9 @@ struct Candidate {
 double Score(SdfReader& reader, std::span<const Vector2d> p_rotated, const Vector2d& translation, double width_m) {
   double score = 0.0;
   for (const Vector2d& p : p_rotated) {
-    const double distance = std::abs(reader.At(p + translation).distance_m);
+    const Vector2d p_map = p + translation;
+    const double distance =
+        std::fmin(std::abs(reader.At(0, p_map).distance_m), std::abs(reader.At(1, p_map).distance_m));
     if (distance < width_m) score += 1.0 - distance / width_m;
   }
   return score;

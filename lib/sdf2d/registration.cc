@@ -45,18 +45,22 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
   const double min_cos2 = options.min_cos_incidence * options.min_cos_incidence;
   const double map_variance = options.map_sigma_m * options.map_sigma_m;
   const double cost_cap = options.huber_sigmas * (2.0 * options.inlier_sigmas - options.huber_sigmas);
+  const auto rotate = [&](const Vector2d& v) {
+    return Vector2d(T_map_body.cos() * v.x() - T_map_body.sin() * v.y(),
+                    T_map_body.sin() * v.x() + T_map_body.cos() * v.y());
+  };
   SdfReader reader(problem.map);
   Linearization sum;
   for (size_t i = 0; i < p_body.size(); ++i) {
     const Vector2d& p = p_body[i];
-    const SdfReader::Sample sample = reader.At(T_map_body * p);
+    const Vector2d beam = p - problem.origin_body;
+    const SdfReader::Sample sample = reader.Facing(T_map_body * p, rotate(beam));
     if (!sample.IsKnown()) {
       sum.cost += cost_cap;
       continue;
     }
     const Vector2d g(T_map_body.cos() * sample.gradient.x() + T_map_body.sin() * sample.gradient.y(),
                      -T_map_body.sin() * sample.gradient.x() + T_map_body.cos() * sample.gradient.y());
-    const Vector2d beam = p - problem.origin_body;
     const double along = g.dot(beam);
     const double cos2 = along * along / (g.squaredNorm() * beam.squaredNorm() + 1e-12);
     const double variance = problem.range_variance[i] * std::max(cos2, min_cos2) + map_variance;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sdf2d/sdf_map.h"
+
 namespace lcmslam::sdf2d {
 namespace {
 
@@ -42,6 +44,8 @@ void ScanField::AddLine(const SurfaceLine& line, const Pose2& T_map_body, double
       std::max(options.band_cells * cell_m, std::min(options.band_sigmas * line.beam_sigma_m, options.max_band_m));
   const double reach_m = options.end_cells * cell_m;
 
+  const int sheet = SdfTile::SheetOf(normal);
+
   // The rows of vertices that cross the rectangle around the piece, and in each the columns.
   const double half_height = std::abs(normal.y()) * band_m + std::abs(along.y()) * reach_m;
   const auto row_low = static_cast<int32_t>(std::ceil((std::min(begin.y(), end.y()) - half_height) / cell_m));
@@ -65,25 +69,26 @@ void ScanField::AddLine(const SurfaceLine& line, const Pose2& T_map_body, double
       const double fit = line.variance[0] + t * (line.variance[1] + t * line.variance[2]);
       const double variance = std::max(fit, 0.0) + floor2 + spread * spread + end_spread * end_spread;
       Offer({column, row, static_cast<float>(distance), static_cast<float>(1.0 / variance),
-             static_cast<float>(std::hypot(distance, past_end))});
+             static_cast<float>(std::hypot(distance, past_end)), sheet});
     }
   }
 }
 
-size_t ScanField::SlotOf(int32_t x, int32_t y) const {
-  const uint64_t key = (static_cast<uint64_t>(static_cast<uint32_t>(x)) << 32) | static_cast<uint32_t>(y);
+size_t ScanField::SlotOf(int32_t x, int32_t y, int32_t sheet) const {
+  const uint64_t key = (static_cast<uint64_t>(static_cast<uint32_t>(x)) << 32) |
+                       (static_cast<uint32_t>(y) ^ static_cast<uint32_t>(sheet) << 31);
   const size_t mask = slots_.size() - 1;
   size_t slot = (key * 0x9E3779B97F4A7C15ULL >> 40) & mask;
   while (slots_[slot].stamp == stamp_) {
     const VertexMeasurement& held = measurements_[slots_[slot].position];
-    if (held.x == x && held.y == y) break;
+    if (held.x == x && held.y == y && held.sheet == sheet) break;
     slot = (slot + 1) & mask;
   }
   return slot;
 }
 
 void ScanField::Offer(const VertexMeasurement& candidate) {
-  Slot& slot = slots_[SlotOf(candidate.x, candidate.y)];
+  Slot& slot = slots_[SlotOf(candidate.x, candidate.y, candidate.sheet)];
   if (slot.stamp == stamp_) {
     VertexMeasurement& held = measurements_[slot.position];
     if (candidate.remoteness_m < held.remoteness_m) held = candidate;
@@ -97,7 +102,7 @@ void ScanField::Offer(const VertexMeasurement& candidate) {
 void ScanField::Grow() {
   slots_.assign(2 * slots_.size(), Slot{});
   for (uint32_t i = 0; i < measurements_.size(); ++i) {
-    slots_[SlotOf(measurements_[i].x, measurements_[i].y)] = {stamp_, i};
+    slots_[SlotOf(measurements_[i].x, measurements_[i].y, measurements_[i].sheet)] = {stamp_, i};
   }
 }
 

@@ -17,6 +17,7 @@ struct VertexMeasurement {
   float distance_m = 0.0F;    // signed, > 0 on the lidar's side
   float information = 0.0F;   // 1/m^2
   float remoteness_m = 0.0F;  // to the piece of surface that said so
+  int32_t sheet = 0;          // that it belongs to
 };
 
 // The signed distance field of one scan, near its surfaces only. Where two surfaces reach a vertex the nearer one
@@ -34,7 +35,7 @@ class ScanField {
   void AddLine(const SurfaceLine& line, const Pose2& T_map_body, double cell_m, const FusionOptions& options);
   void Offer(const VertexMeasurement& candidate);
   void Grow();
-  size_t SlotOf(int32_t x, int32_t y) const;
+  size_t SlotOf(int32_t x, int32_t y, int32_t sheet) const;
 
   std::vector<VertexMeasurement> measurements_;
   // Open addressing: position in measurements_ + 1; valid where its stamp is the present one.

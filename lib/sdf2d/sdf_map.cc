@@ -25,10 +25,4 @@ SdfTile& SdfMap::Touch(int32_t tile_x, int32_t tile_y) {
   return tiles_[found->second];
 }
 
-float SdfMap::DistanceAt(int32_t vertex_x, int32_t vertex_y) const {
-  const SdfTile* tile = Find(vertex_x >> SdfTile::kShift, vertex_y >> SdfTile::kShift);
-  return tile == nullptr ? std::numeric_limits<float>::quiet_NaN()
-                         : tile->distance_m[SdfTile::IndexOf(vertex_x, vertex_y)];
-}
-
 }  // namespace lcmslam::sdf2d

@@ -5,31 +5,55 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <numbers>
 #include <unordered_map>
+#include <vector>
 
 #include <Eigen/Core>
 
 namespace lcmslam::sdf2d {
 
-// A square of vertices. Vertex (x, y) of the tile is vertex (tile_x * kSide + x, tile_y * kSide + y) of the map.
-struct SdfTile {
+// What is known of the surfaces near the vertices of a tile; [y * kSide + x].
+struct SdfSheet {
   static constexpr int kShift = 5;
   static constexpr int kSide = 1 << kShift;
   static constexpr int kVertices = kSide * kSide;
 
+  std::array<float, kVertices> distance_m;     // signed, > 0 on the free side; NaN: no surface near
+  std::array<float, kVertices> information{};  // 1/m^2, of the distance; 0: no surface near
+
+  SdfSheet() { distance_m.fill(std::numeric_limits<float>::quiet_NaN()); }
+
+  void Forget(int i) {
+    distance_m[i] = std::numeric_limits<float>::quiet_NaN();
+    information[i] = 0.0F;
+  }
+};
+
+// A square of vertices. Vertex (x, y) of the tile is vertex (tile_x * kSide + x, tile_y * kSide + y) of the map.
+// Surfaces that face opposite ways lie on different sheets: the two sides of a wall thinner than the band around a
+// surface would otherwise erase each other.
+struct SdfTile {
+  static constexpr int kShift = SdfSheet::kShift;
+  static constexpr int kSide = SdfSheet::kSide;
+  static constexpr int kVertices = SdfSheet::kVertices;
+  static constexpr int kSheets = 2;
+
   int32_t tile_x = 0;
   int32_t tile_y = 0;
-  uint64_t revision = 0;                          // of the map when the tile last changed
-  std::array<float, kVertices> distance_m;        // signed, > 0 on the free side; NaN: no surface near; [y * kSide + x]
-  std::array<float, kVertices> information{};     // 1/m^2, of the distance; 0: no surface near
+  uint64_t revision = 0;  // of the map when the tile last changed
+  std::array<SdfSheet, kSheets> sheets;
   std::array<uint8_t, kVertices> seen_through{};  // beams that passed, saturating
+
+  SdfTile(int32_t x, int32_t y) : tile_x(x), tile_y(y) {}
 
   // Of a vertex given by its index in the map.
   static constexpr int IndexOf(int32_t vertex_x, int32_t vertex_y) {
     return ((vertex_y & (kSide - 1)) << kShift) | (vertex_x & (kSide - 1));
   }
-
-  SdfTile(int32_t x, int32_t y) : tile_x(x), tile_y(y) { distance_m.fill(std::numeric_limits<float>::quiet_NaN()); }
+  // Of a surface with that normal (map frame). The border between the sheets lies oblique to axes and diagonals, where
+  // walls are rare.
+  static int SheetOf(const Eigen::Vector2d& normal) { return normal.x() * 0.3827 + normal.y() * 0.9239 >= 0.0 ? 0 : 1; }
 };
 
 // An unbounded map of signed distances to the nearest surface, sampled at vertices `cell_m` apart; vertex (i, j) lies
@@ -52,9 +76,6 @@ class SdfMap {
   SdfTile* Find(int32_t tile_x, int32_t tile_y);
   // Creates it where there is none. References stay valid.
   SdfTile& Touch(int32_t tile_x, int32_t tile_y);
-
-  // Of the vertex, NaN where unknown. Slow; registration reads through SdfReader.
-  float DistanceAt(int32_t vertex_x, int32_t vertex_y) const;
 
  private:
   double cell_m_;

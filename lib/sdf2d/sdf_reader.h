@@ -22,15 +22,28 @@ class SdfReader {
     bool IsKnown() const { return !std::isnan(distance_m); }
   };
 
+  // The surface near p_map (m) that a beam of that direction (map frame, any length) has most likely hit: the nearest
+  // one whose normal points against the beam. Unknown where there is none, where p is not finite or beyond the index
+  // range.
+  Sample Facing(const Eigen::Vector2d& p_map, const Eigen::Vector2d& beam) {
+    const Sample a = At(0, p_map);
+    const Sample b = At(1, p_map);
+    const bool a_faces = Faces(a, beam), b_faces = Faces(b, beam);
+    if (a_faces && b_faces) return std::abs(a.distance_m) < std::abs(b.distance_m) ? a : b;
+    if (a_faces) return a;
+    if (b_faces) return b;
+    return {};
+  }
+
   // p_map: metres; unknown where a corner of its cell is, or where p is not finite or beyond the index range.
-  Sample At(const Eigen::Vector2d& p_map) {
+  Sample At(int sheet, const Eigen::Vector2d& p_map) {
     const double x = p_map.x() * per_cell_;
     const double y = p_map.y() * per_cell_;
     if (!(std::abs(x) < kMaxIndex && std::abs(y) < kMaxIndex)) return {};
     const double x0 = std::floor(x);
     const double y0 = std::floor(y);
     Corners corner;
-    if (!ReadCorners(static_cast<int32_t>(x0), static_cast<int32_t>(y0), &corner)) return {};
+    if (!ReadCorners(sheet, static_cast<int32_t>(x0), static_cast<int32_t>(y0), &corner)) return {};
     const double u = x - x0;
     const double v = y - y0;
     const double bottom = corner.d00 + u * (corner.d10 - corner.d00);
@@ -59,22 +72,25 @@ class SdfReader {
     return tile_;
   }
 
-  double DistanceAt(int32_t vertex_x, int32_t vertex_y) {
+  static bool Faces(const Sample& sample, const Eigen::Vector2d& beam) { return sample.gradient.dot(beam) < 0.0; }
+
+  double DistanceAt(int sheet, int32_t vertex_x, int32_t vertex_y) {
     const SdfTile* tile = TileOf(vertex_x, vertex_y);
     return tile == nullptr ? std::numeric_limits<double>::quiet_NaN()
-                           : tile->distance_m[SdfTile::IndexOf(vertex_x, vertex_y)];
+                           : tile->sheets[sheet].distance_m[SdfTile::IndexOf(vertex_x, vertex_y)];
   }
 
-  bool ReadCorners(int32_t x, int32_t y, Corners* corner) {
+  bool ReadCorners(int sheet, int32_t x, int32_t y, Corners* corner) {
     constexpr int kLast = SdfTile::kSide - 1;
     if ((x & kLast) != kLast && (y & kLast) != kLast) {
       const SdfTile* tile = TileOf(x, y);
       if (tile == nullptr) return false;
-      const float* d = &tile->distance_m[SdfTile::IndexOf(x, y)];
+      const float* d = &tile->sheets[sheet].distance_m[SdfTile::IndexOf(x, y)];
       *corner = {d[0], d[1], d[SdfTile::kSide], d[SdfTile::kSide + 1]};
       return true;
     }
-    *corner = {DistanceAt(x, y), DistanceAt(x + 1, y), DistanceAt(x, y + 1), DistanceAt(x + 1, y + 1)};
+    *corner = {DistanceAt(sheet, x, y), DistanceAt(sheet, x + 1, y), DistanceAt(sheet, x, y + 1),
+               DistanceAt(sheet, x + 1, y + 1)};
     return true;
   }
 
