@@ -36,12 +36,27 @@ bool Take(std::string_view& bytes, T& value) {
   return true;
 }
 
-bool IsPlausible(const SdfTile& tile) {
-  for (size_t i = 0; i < SdfTile::kVertices; ++i) {
-    if (!(tile.information[i] >= 0.0F) || std::isinf(tile.information[i])) return false;
-    if (tile.information[i] > 0.0F && !std::isfinite(tile.distance_m[i])) return false;
+bool IsPlausible(const SdfSheet& sheet) {
+  for (size_t i = 0; i < SdfSheet::kVertices; ++i) {
+    if (!(sheet.information[i] >= 0.0F) || std::isinf(sheet.information[i])) return false;
+    if (sheet.information[i] > 0.0F && !std::isfinite(sheet.distance_m[i])) return false;
   }
   return true;
+}
+
+// A byte that says whether anything is known, then the values if so.
+void PutSheet(std::string& bytes, const SdfSheet& sheet) {
+  const bool empty = sheet.IsEmpty();
+  Put(bytes, static_cast<uint8_t>(empty ? 0 : 1));
+  if (empty) return;
+  Put(bytes, sheet.distance_m);
+  Put(bytes, sheet.information);
+}
+
+bool TakeSheet(std::string_view& bytes, SdfSheet& sheet) {
+  uint8_t known = 0;
+  if (!Take(bytes, known)) return false;
+  return known == 0 || (Take(bytes, sheet.distance_m) && Take(bytes, sheet.information));
 }
 
 // "" or the reason.
@@ -68,9 +83,11 @@ std::string Parse(std::string_view bytes, std::optional<SdfMap>& map) {
     if (map->Find(tile_x, tile_y) != nullptr) return "holds a tile twice";
     SdfTile& tile = map->Touch(tile_x, tile_y);
     tile.revision = map->revision();
-    if (!Take(bytes, tile.distance_m) || !Take(bytes, tile.information) || !Take(bytes, tile.seen_through))
-      return "cut off";
-    if (!IsPlausible(tile)) return "holds values that are no distances";
+    for (SdfSheet& sheet : tile.sheets) {
+      if (!TakeSheet(bytes, sheet)) return "cut off";
+      if (!IsPlausible(sheet)) return "holds values that are no distances";
+    }
+    if (!Take(bytes, tile.seen_through)) return "cut off";
   }
   return bytes.empty() ? "" : "holds more than its tiles";
 }
@@ -85,8 +102,7 @@ std::string WriteMap(const SdfMap& map, const std::filesystem::path& path) {
   for (const SdfTile& tile : map.tiles()) {
     Put(bytes, tile.tile_x);
     Put(bytes, tile.tile_y);
-    Put(bytes, tile.distance_m);
-    Put(bytes, tile.information);
+    for (const SdfSheet& sheet : tile.sheets) PutSheet(bytes, sheet);
     Put(bytes, tile.seen_through);
   }
   Put(bytes, Crc32(bytes));

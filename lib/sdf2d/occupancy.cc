@@ -11,10 +11,11 @@ constexpr int8_t kOccupied = 100;
 constexpr int8_t kFreeBySurface = -50;  // in front of a surface that was seen
 constexpr int kFreePerBeam = 10;
 
-int8_t CellOf(const SdfTile& tile, size_t vertex, float half_cell_m) {
-  const bool near_surface = tile.information[vertex] > 0.0F;
-  if (near_surface && std::abs(tile.distance_m[vertex]) <= half_cell_m) return kOccupied;
-  if (near_surface && tile.distance_m[vertex] > 0.0F) return kFreeBySurface;
+int8_t CellOf(const SdfTile& tile, int vertex, float half_cell_m) {
+  const SdfTile::Vertex nearest = tile.Nearest(vertex);
+  const bool near_surface = nearest.information > 0.0F;
+  if (near_surface && std::abs(nearest.distance_m) <= half_cell_m) return kOccupied;
+  if (near_surface && nearest.distance_m > 0.0F) return kFreeBySurface;
   return static_cast<int8_t>(-std::min<int>(kFreePerBeam * tile.seen_through[vertex], kOccupied));
 }
 
@@ -42,8 +43,8 @@ OccupancyGrid ToOccupancyGrid(const SdfMap& map) {
   for (const SdfTile& tile : map.tiles()) {
     const size_t corner = static_cast<size_t>((tile.tile_y - first.y()) * kSide) * static_cast<size_t>(grid.width) +
                           static_cast<size_t>((tile.tile_x - first.x()) * kSide);
-    for (size_t vertex = 0; vertex < SdfTile::kVertices; ++vertex) {
-      const size_t row = vertex / kSide, column = vertex % kSide;
+    for (int vertex = 0; vertex < SdfTile::kVertices; ++vertex) {
+      const auto row = static_cast<size_t>(vertex / kSide), column = static_cast<size_t>(vertex % kSide);
       grid.cells[corner + row * static_cast<size_t>(grid.width) + column] = CellOf(tile, vertex, half_cell_m);
     }
   }

@@ -1,13 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <deque>
 #include <limits>
-#include <numbers>
 #include <unordered_map>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -24,6 +23,9 @@ struct SdfSheet {
 
   SdfSheet() { distance_m.fill(std::numeric_limits<float>::quiet_NaN()); }
 
+  bool IsEmpty() const {
+    return std::ranges::all_of(information, [](float value) { return value <= 0.0F; });
+  }
   void Forget(int i) {
     distance_m[i] = std::numeric_limits<float>::quiet_NaN();
     information[i] = 0.0F;
@@ -46,6 +48,20 @@ struct SdfTile {
   std::array<uint8_t, kVertices> seen_through{};  // beams that passed, saturating
 
   SdfTile(int32_t x, int32_t y) : tile_x(x), tile_y(y) {}
+
+  // The nearest surface to a vertex, whichever way it faces, for drawings; information 0: none.
+  struct Vertex {
+    float distance_m = std::numeric_limits<float>::quiet_NaN();
+    float information = 0.0F;
+  };
+  Vertex Nearest(int i) const {
+    Vertex nearest;
+    for (const SdfSheet& sheet : sheets) {
+      const bool nearer = !(std::abs(sheet.distance_m[i]) >= std::abs(nearest.distance_m));
+      if (sheet.information[i] > 0.0F && nearer) nearest = {sheet.distance_m[i], sheet.information[i]};
+    }
+    return nearest;
+  }
 
   // Of a vertex given by its index in the map.
   static constexpr int IndexOf(int32_t vertex_x, int32_t vertex_y) {

@@ -49,12 +49,13 @@ sdf_tile_t TileMessage(int64_t utime, double cell_m, const sdf2d::SdfTile& tile)
   message.tile_y = tile.tile_y;
   message.meters_per_cell = static_cast<float>(cell_m);
   message.meters_per_unit = kMetersPerUnit;
-  for (size_t i = 0; i < tile.distance_m.size(); ++i) {
-    const bool known = tile.information[i] > 0.0F;
-    const float units = known ? std::clamp(tile.distance_m[i] / kMetersPerUnit, -32767.0F, 32767.0F) : 0.0F;
+  for (int i = 0; i < sdf2d::SdfTile::kVertices; ++i) {
+    const auto [distance_m, information] = tile.Nearest(i);
+    const bool known = information > 0.0F;
+    const float units = known ? std::clamp(distance_m / kMetersPerUnit, -32767.0F, 32767.0F) : 0.0F;
     message.distance.push_back(static_cast<int16_t>(std::lround(units)));
     // Confidence on a logarithmic scale: 1 + 10 log2(information of one centimetre-grade beam).
-    const float grade = known ? 1.0F + 10.0F * std::log2(1.0F + tile.information[i] * 1e-4F) : 0.0F;
+    const float grade = known ? 1.0F + 10.0F * std::log2(1.0F + information * 1e-4F) : 0.0F;
     message.weight.push_back(static_cast<uint8_t>(std::min(grade, 255.0F)));
   }
   return message;

@@ -20,8 +20,8 @@ SdfMap WallMap() {
     for (int x = 0; x < SdfTile::kSide; ++x) {
       for (int y = 0; y < 6; ++y) {
         const int i = SdfTile::IndexOf(x, y);
-        tile.distance_m[i] = static_cast<float>(0.05 * y - 0.1);
-        tile.information[i] = 1e4F;
+        tile.sheets[0].distance_m[i] = static_cast<float>(0.05 * y - 0.1);
+        tile.sheets[0].information[i] = 1e4F;
       }
       tile.seen_through[SdfTile::IndexOf(x, 10)] = 3;
     }
