@@ -17,6 +17,7 @@ constexpr int64_t kMaxOdometryGapUs = 500'000;
 struct Survey {
   std::map<std::string, int64_t> scans_by_line;
   Trajectory odometry;  // ODOM lines; stamps strictly increasing
+  std::string problem;  // why there are no scans, or not all
 };
 
 void Learn(const CarmenRecord& record, Survey& survey) {
@@ -29,10 +30,12 @@ void Learn(const CarmenRecord& record, Survey& survey) {
 
 Survey SurveyLog(const CarmenImportOptions& options) {
   Survey survey;
+  survey.problem = fmt::format("{}: no laser scans", options.file.string());
   CarmenReader reader(options.file, options.log);
   try {
     while (const auto record = reader.Next()) Learn(*record, survey);
-  } catch (const BadInput&) {  // the second pass comes to the same place and says so
+  } catch (const BadInput& error) {  // the second pass comes to the same place
+    survey.problem = error.what();
   }
   return survey;
 }
@@ -76,8 +79,9 @@ std::string CarmenImportOptions::Validate() const {
 
 void ImportCarmen(const CarmenImportOptions& options, SensorPublisher& publisher, const Note& note) {
   const Survey survey = SurveyLog(options);
-  const auto channels = LidarChannels(survey.scans_by_line, options.scan_line);
+  const auto channels = LidarChannels(survey.scans_by_line, options.scan_line, survey.problem);
   for (const auto& [line, channel] : channels) note(fmt::format("{} -> {}", line, channel));
+  publisher.ExpectScans(TotalScans(survey.scans_by_line));
   CarmenPublisher publish(survey, channels, std::llround(options.scan_delay_s * 1e6), publisher);
   CarmenReader reader(options.file, options.log);
   for (auto record = reader.Next(); record && !StopRequested(); record = reader.Next()) std::visit(publish, *record);

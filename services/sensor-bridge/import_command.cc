@@ -16,11 +16,16 @@ namespace {
 using Import = std::function<void(SensorPublisher&, const Note&)>;
 
 // Runs `import` onto the bus or into a log; what came before an error is published all the same.
-ExitCode RunImport(const OutputOptions& options, const Import& import) {
+ExitCode RunImport(const std::filesystem::path& file, const OutputOptions& options, const Import& import) {
   RequireValid(options.Validate());
+  std::error_code not_there;
+  if (std::filesystem::equivalent(file, options.log_out, not_there))
+    throw CommandError(ExitCode::kUsage, "--log-out: is the file to be imported");
+  if (!std::filesystem::is_regular_file(file, not_there))  // before --log-out is made
+    throw CommandError(ExitCode::kBadInput, fmt::format("{}: no such file", file.string()));
   CatchStopSignals();
   BridgeOutput output(options);
-  SensorPublisher publisher(output);
+  SensorPublisher publisher(output, options.quiet);
   const auto say = [&](const std::string& line) {
     if (!options.quiet) fmt::print(stderr, "sensor-bridge: {}\n", line);
   };
@@ -62,7 +67,8 @@ void AddCarmen(CLI::App& import, OutputOptions& output, std::function<ExitCode()
   format->callback([=, &output, &command] {
     command = [=, &output] {
       RequireValid(options->Validate());
-      return RunImport(output, [=](auto& publisher, auto& note) { ImportCarmen(*options, publisher, note); });
+      return RunImport(options->file, output,
+                       [=](auto& publisher, auto& note) { ImportCarmen(*options, publisher, note); });
     };
   });
 }
@@ -76,7 +82,8 @@ void AddRosbag(CLI::App& import, OutputOptions& output, std::function<ExitCode()
   format->add_option("--base-frame", options->base_frame, "tf frame of the body");
   format->callback([=, &output, &command] {
     command = [=, &output] {
-      return RunImport(output, [=](auto& publisher, auto& note) { ImportRosbag(*options, publisher, note); });
+      return RunImport(options->file, output,
+                       [=](auto& publisher, auto& note) { ImportRosbag(*options, publisher, note); });
     };
   });
 }
@@ -96,7 +103,8 @@ void AddMbot(CLI::App& import, OutputOptions& output, std::function<ExitCode()>&
     if (*clockwise) options->sense = AngleSense::kClockwise;
     if (*counter_clockwise) options->sense = AngleSense::kCounterClockwise;
     command = [=, &output] {
-      return RunImport(output, [=](auto& publisher, auto& note) { ImportMbot(*options, publisher, note); });
+      return RunImport(options->file, output,
+                       [=](auto& publisher, auto& note) { ImportMbot(*options, publisher, note); });
     };
   });
 }

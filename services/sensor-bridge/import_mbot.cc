@@ -58,9 +58,11 @@ bool Publish(const Event& event, const MbotImportOptions& options, const std::ma
 
 void ImportMbot(const MbotImportOptions& options, SensorPublisher& publisher, const Note& note) {
   const Survey survey = SurveyLog(options.file);
-  const auto lidars = LidarChannels(survey.scans_by_channel, options.scan_channel);
+  const auto lidars = LidarChannels(survey.scans_by_channel, options.scan_channel,
+                                    fmt::format("{}: no laser scans", options.file.string()));
   for (const auto& [from, to] : lidars) note(fmt::format("{} -> {}", from, to));
   if (!survey.other_channels.empty()) note(fmt::format("not imported: {}", fmt::join(survey.other_channels, ", ")));
+  publisher.ExpectScans(TotalScans(survey.scans_by_channel));
 
   LogReader reader(options.file);
   for (Event event; !StopRequested() && reader.Next(event);) {

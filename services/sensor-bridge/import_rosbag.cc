@@ -65,6 +65,7 @@ class RosbagPublisher {
 void ImportRosbag(const RosbagImportOptions& options, SensorPublisher& publisher, const Note& note) {
   const RosbagSurvey survey = SurveyRosbag(options.file);
   const RosbagPlan plan = PlanImport(survey, options, note);
+  publisher.ExpectScans(TotalScans(ScanTopics(survey)));
   RosbagPublisher bag(plan, publisher);
   RosbagReader reader(options.file);
   for (auto message = reader.Next(); message && !StopRequested(); message = reader.Next()) {

@@ -27,8 +27,8 @@ std::string ChannelName(const std::string& lidar) {
 }  // namespace
 
 std::map<std::string, std::string> LidarChannels(const std::map<std::string, int64_t>& scans_by_lidar,
-                                                 const std::string& chosen) {
-  if (scans_by_lidar.empty()) throw CommandError(ExitCode::kBadInput, "no laser scans");
+                                                 const std::string& chosen, const std::string& why_none) {
+  if (scans_by_lidar.empty()) throw CommandError(ExitCode::kBadInput, why_none);
   auto main = std::ranges::max_element(scans_by_lidar, {}, [](const auto& lidar) { return lidar.second; });
   if (!chosen.empty()) {
     main = scans_by_lidar.find(chosen);
@@ -43,6 +43,12 @@ std::map<std::string, std::string> LidarChannels(const std::map<std::string, int
   for (const auto& [lidar, scans] : scans_by_lidar)
     channels[lidar] = lidar == main->first ? kMainLidarChannel : ChannelName(lidar);
   return channels;
+}
+
+int64_t TotalScans(const std::map<std::string, int64_t>& scans_by_lidar) {
+  int64_t total = 0;
+  for (const auto& [lidar, scans] : scans_by_lidar) total += scans;
+  return total;
 }
 
 }  // namespace lcmslam

@@ -118,18 +118,23 @@ void PlanMountings(const RosbagSurvey& survey, RosbagPlan& plan, const Note& not
 
 RosbagSurvey SurveyRosbag(const std::filesystem::path& file) {
   RosbagSurvey survey;
+  survey.problem = fmt::format("{}: no laser scans", file.string());
   RosbagReader reader(file);
   try {
     while (const auto message = reader.Next()) Learn(*message, survey);
-  } catch (const BadInput&) {  // the second pass comes to the same place and says so
+  } catch (const BadInput& error) {  // the second pass comes to the same place
+    survey.problem = error.what();
   }
   return survey;
 }
 
+std::map<std::string, int64_t> ScanTopics(const RosbagSurvey& survey) {
+  return TopicsWhere(survey, [](const std::string&, const std::string& type) { return type == kLaserScan; });
+}
+
 RosbagPlan PlanImport(const RosbagSurvey& survey, const RosbagImportOptions& options, const Note& note) {
   RosbagPlan plan;
-  const auto is_scan = [](const std::string&, const std::string& type) { return type == kLaserScan; };
-  plan.lidar_channels = LidarChannels(TopicsWhere(survey, is_scan), options.scan_topic);
+  plan.lidar_channels = LidarChannels(ScanTopics(survey), options.scan_topic, survey.problem);
   plan.ground_truth_topic = ChooseGroundTruth(survey, options.ground_truth_topic);
   plan.odometry_topic = ChooseOdometryTopic(survey, options.odometry_topic, plan.ground_truth_topic);
   if (!plan.odometry_topic.empty()) plan.odometry_child_frame = survey.child_frames.at(plan.odometry_topic);

@@ -16,7 +16,10 @@ struct RosbagSurvey {
   std::map<std::string, std::string> frames;        // of every LaserScan topic: its first frame
   std::map<std::string, std::string> child_frames;  // of every pose topic: its first child frame
   FrameTree tree;
+  std::string problem;  // why there are no scans, or not all
 };
+// The topics of sensor_msgs/LaserScan with their numbers of messages.
+[[nodiscard]] std::map<std::string, int64_t> ScanTopics(const RosbagSurvey& survey);
 [[nodiscard]] RosbagSurvey SurveyRosbag(const std::filesystem::path& file);
 
 // What is imported as what.

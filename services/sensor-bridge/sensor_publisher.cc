@@ -6,6 +6,7 @@
 #include <lcmslam/rigid_transform_t.hpp>
 
 #include "bus/messages.h"
+#include "bus/signals.h"
 #include "geometry/utime.h"
 
 namespace lcmslam {
@@ -15,12 +16,14 @@ constexpr int64_t kMountingPeriodUs = 1'000'000;
 
 }  // namespace
 
+void SensorPublisher::ExpectScans(int64_t scans) { progress_.emplace(static_cast<uint64_t>(scans), quiet_); }
+
 void SensorPublisher::SetMounting(const std::string& lidar_channel, const Pose3& T_body_sensor) {
   mountings_[lidar_channel].T_body_sensor = T_body_sensor;
 }
 
 void SensorPublisher::PublishScan(const std::string& channel, const PlanarScan& scan) {
-  Push(scan.utime, channel, "scans", Encode(ToMessage(scan)));
+  Push(scan.utime, {Kind::kScan, channel, Encode(ToMessage(scan))});
 }
 
 void SensorPublisher::PublishPose(const std::string& channel, const StampedPose& pose) {
@@ -30,33 +33,36 @@ void SensorPublisher::PublishPose(const std::string& channel, const StampedPose&
   }
   StampedPose rigid = pose;
   rigid.pose.rotation.normalize();
-  Push(pose.utime, channel, "poses", Encode(ToMessage(rigid)));
+  Push(pose.utime, {Kind::kPose, channel, Encode(ToMessage(rigid))});
 }
 
 void SensorPublisher::Finish() {
   order_.Flush([this](int64_t utime, const Message& message) { Emit(utime, message); });
+  progress_.reset();
 }
 
 std::string SensorPublisher::Summary() const {
   std::string line;
   for (const auto& [channel, count] : counts_)
-    line += fmt::format("{} {} on {}, ", count.messages, count.what, channel);
+    line += fmt::format("{} {} on {}, ", count.messages, count.kind == Kind::kScan ? "scans" : "poses", channel);
   if (invalid_poses_ > 0) line += fmt::format("{} invalid poses left out, ", invalid_poses_);
   if (order_.jumps() > 0) line += fmt::format("time jumped back {} times, ", order_.jumps());
   return fmt::format("{}{:.1f} s", line, static_cast<double>(duration_us_) / 1e6);
 }
 
-void SensorPublisher::Push(int64_t utime, const std::string& channel, const char* what, std::vector<uint8_t> data) {
-  ++counts_.try_emplace(channel, Count{what}).first->second.messages;
-  order_.Push(utime, {channel, std::move(data)}, [this](int64_t t, const Message& message) { Emit(t, message); });
+void SensorPublisher::Push(int64_t utime, Message message) {
+  order_.Push(utime, std::move(message), [this](int64_t t, const Message& next) { Emit(t, next); });
 }
 
 void SensorPublisher::Emit(int64_t utime, const Message& message) {
+  if (StopRequested()) return;  // what is held back need not go out any more
   if (started_) duration_us_ += std::max<int64_t>(UtimeDifference(utime, last_utime_), 0);
   started_ = true;
   last_utime_ = utime;
   PublishMounting(utime, message.channel);
   output_.Publish(utime, message.channel, Bytes(message.data));
+  ++counts_.try_emplace(message.channel, Count{message.kind}).first->second.messages;
+  if (message.kind == Kind::kScan && progress_) progress_->Show(++scans_published_);
 }
 
 void SensorPublisher::PublishMounting(int64_t utime, const std::string& lidar_channel) {

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bus/progress.h"
 #include "geometry/trajectory.h"
 #include "lidar/planar_scan.h"
 #include "sensor-bridge/bridge_output.h"
@@ -15,7 +17,10 @@ namespace lcmslam {
 // Publishes what sensors say as messages, in the order of their stamps, and keeps count. One thread.
 class SensorPublisher {
  public:
-  explicit SensorPublisher(BridgeOutput& output) : output_(output) {}
+  SensorPublisher(BridgeOutput& output, bool quiet) : output_(output), quiet_(quiet) {}
+
+  // From now on a progress bar shows how many of `scans` have been published.
+  void ExpectScans(int64_t scans);
 
   // From now on rigid_transform_t goes out on <lidar_channel>_EXTRINSICS with the channel's first scan, then once a
   // second of data time.
@@ -30,7 +35,9 @@ class SensorPublisher {
   std::string Summary() const;
 
  private:
+  enum class Kind { kScan, kPose };
   struct Message {
+    Kind kind;
     std::string channel;
     std::vector<uint8_t> data;
   };
@@ -40,15 +47,18 @@ class SensorPublisher {
     bool published = false;
   };
   struct Count {
-    const char* what;
+    Kind kind;
     int64_t messages = 0;
   };
 
-  void Push(int64_t utime, const std::string& channel, const char* what, std::vector<uint8_t> data);
+  void Push(int64_t utime, Message message);
   void Emit(int64_t utime, const Message& message);
   void PublishMounting(int64_t utime, const std::string& lidar_channel);
 
   BridgeOutput& output_;
+  bool quiet_;
+  std::optional<Progress> progress_;
+  uint64_t scans_published_ = 0;
   TimeOrder<Message> order_{2'000'000};
   std::map<std::string, Mounting> mountings_;
   std::map<std::string, Count> counts_;  // by channel

@@ -11,7 +11,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bus/progress.h"
 #include "bus/signals.h"
 #include "common/config.h"
 #include "sensor-bridge/bridge_output.h"
@@ -51,14 +50,10 @@ ExitCode Simulate(const SimulateOptions& options) {
 
   CatchStopSignals();
   BridgeOutput output(options.output);
-  SensorPublisher publisher(output);
+  SensorPublisher publisher(output, options.output.quiet);
+  publisher.ExpectScans(episode.num_frames());
   BoundSummary bound;
-  Progress progress(static_cast<uint64_t>(episode.num_frames()), options.output.quiet);
-  uint64_t done = 0;
-  PublishEpisode(episode, publisher, [&](const PlanarFrame& frame) {
-    bound.Add(frame);
-    progress.Show(++done);
-  });
+  PublishEpisode(episode, publisher, [&](const PlanarFrame& frame) { bound.Add(frame); });
   publisher.Finish();
   output.Finish();
   if (!options.bound_file.empty()) WriteBound(options.bound_file, bound);
