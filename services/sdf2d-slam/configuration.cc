@@ -1,25 +1,11 @@
 #include "sdf2d-slam/configuration.h"
 
-#include "common/config.h"
+#include "common/planar_slam_config.h"
 #include "sdf2d-slam/sdf2d_slam.h"
 #include "sdf2d-slam/sdf2d_slam.pb.h"
 
 namespace lcmslam {
 namespace {
-
-void BindChannels(ConfigBinder bind, Sdf2dSlamOptions& options) {
-  PlanarSlamOptions& service = options.service;
-  bind("lidar", service.lidar_channel)("odometry", service.odometry_channel)("command", service.command_channel);
-  bind("pose", service.pose_channel)("diagnostics", service.diagnostics_channel);
-  bind("map", options.map_channel)("grid", service.grid_channel);
-  bind("grid_period_s", service.grid_period_s)("max_grid_cells", service.max_grid_cells);
-}
-
-void BindPose(ConfigBinder bind, Pose2& pose) {
-  double x_m = pose.x(), y_m = pose.y(), yaw_rad = pose.yaw();
-  bind("x_m", x_m)("y_m", y_m)("yaw_rad", yaw_rad);
-  pose = Pose2(x_m, y_m, yaw_rad);
-}
 
 void BindNoise(ConfigBinder bind, sdf2d::NoiseOptions& noise) {
   bind("estimate", noise.estimate)("constant_m", noise.constant_m)("proportional", noise.proportional);
@@ -41,7 +27,9 @@ void BindOptions(config::Sdf2dSlam& config, Sdf2dSlamOptions& options) {
   options.service.mounting_configured = config.has_mounting();
   sdf2d::Options& slam = options.slam;
   ConfigBinder bind(config);
-  BindChannels(bind.Sub("channels"), options);
+  ConfigBinder channels = bind.Sub("channels");
+  BindChannels(channels, options.service);
+  channels("map", options.map_channel);
   if (config.has_mounting()) BindPose(bind.Sub("mounting"), slam.T_body_lidar);
   BindPose(bind.Sub("initial_pose"), slam.T_map_body_initial);
   bind("cell_m", slam.cell_m)("min_range_m", slam.min_range_m)("max_range_m", slam.max_range_m);

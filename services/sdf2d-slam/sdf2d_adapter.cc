@@ -1,12 +1,12 @@
 #include "sdf2d-slam/sdf2d_adapter.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <lcmslam/sdf_tile_t.hpp>
 #include <lcmslam/slam_diagnostics_t.hpp>
 
+#include "common/planar_diagnostics.h"
 #include "sdf2d-slam/sdf2d_slam.h"
 #include "sdf2d/map_file.h"
 #include "sdf2d/occupancy.h"
@@ -18,10 +18,6 @@ namespace {
 constexpr float kMetersPerUnit = 1e-4F;  // of a published distance: up to 3.2 m in an int16
 constexpr size_t kTilesInTurn = 4;       // unchanged tiles published each time, for late joiners
 
-double NowMs() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void Describe(const sdf2d::Result& result, slam_diagnostics_t& diagnostics) {
   diagnostics.status = static_cast<int8_t>(result.status);
   diagnostics.iterations = result.iterations;
@@ -29,15 +25,9 @@ void Describe(const sdf2d::Result& result, slam_diagnostics_t& diagnostics) {
   diagnostics.inlier_ratio = static_cast<float>(result.inlier_ratio);
   diagnostics.residual_rms = static_cast<float>(result.residual_rms_m);
   diagnostics.range_sigma = static_cast<float>(result.range_sigma_m);
-  diagnostics.dof = 3;
-  diagnostics.num_covariance = 9;
-  diagnostics.covariance.assign(result.covariance.data(), result.covariance.data() + 9);
+  SetCovariance(result.covariance, diagnostics);
   for (size_t axis = 0; axis < 3; ++axis) diagnostics.unobservable |= result.unobservable[axis] ? 1 << axis : 0;
-  diagnostics.num_stages = static_cast<int16_t>(sdf2d::kNumStages);
-  for (size_t i = 0; i < sdf2d::kNumStages; ++i) {
-    diagnostics.stage_ms.push_back(static_cast<float>(result.stage_ms[i]));
-    diagnostics.stage_name.emplace_back(sdf2d::kStageNames[i]);
-  }
+  SetStages(sdf2d::kStageNames, result.stage_ms, diagnostics);
 }
 
 sdf_tile_t TileMessage(int64_t utime, double cell_m, const sdf2d::SdfTile& tile) {
@@ -64,7 +54,7 @@ sdf_tile_t TileMessage(int64_t utime, double cell_m, const sdf2d::SdfTile& tile)
 class Sdf2dAdapter : public PlanarSlam {
  public:
   explicit Sdf2dAdapter(const Sdf2dSlamOptions& options) : map_channel_(options.map_channel), pipeline_(options.slam) {
-    pipeline_.SetStopwatch(NowMs);
+    pipeline_.SetStopwatch(MonotonicMs);
     if (options.load_map.empty()) return;
     const std::string error = LoadMap(options.load_map);
     if (!error.empty()) throw CommandError(ExitCode::kBadInput, error);

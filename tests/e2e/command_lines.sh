@@ -3,7 +3,7 @@
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
 
-services=(sdf2d-slam ground-truth-logger)
+services=(sdf2d-slam occupancy2d-slam ground-truth-logger)
 
 main() {
   make_logs
@@ -33,6 +33,7 @@ accepts() {
   check "--help" "$1" --help
   check "--version is a number" grep -qxE '[0-9]+\.[0-9]+\.[0-9]+' <("$1" --version)
   "$1" --print-config >printed.pbtxt
+  check "the shipped configuration is the default" cmp printed.pbtxt "$root/services/$(basename "$1")/$(basename "$1").pbtxt"
   check "--print-config reads back as itself" cmp printed.pbtxt <("$1" --config printed.pbtxt --print-config)
   check "a log whose tail was cut off" "$1" --quiet --log-in cut.lcm --out here
   check "the effective configuration is left in --out" cmp printed.pbtxt "here/$(basename "$1").pbtxt"

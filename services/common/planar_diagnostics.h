@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+namespace lcmslam {
+
+class slam_diagnostics_t;
+
+// x, y, yaw; map axes.
+void SetCovariance(const Eigen::Matrix3d& covariance, slam_diagnostics_t& diagnostics);
+
+// As many names as times.
+void SetStages(std::span<const char* const> names, std::span<const double> ms, slam_diagnostics_t& diagnostics);
+
+// A stopwatch for the stages of a pipeline.
+double MonotonicMs();
+
+}  // namespace lcmslam
