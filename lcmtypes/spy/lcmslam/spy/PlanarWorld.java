@@ -1,0 +1,215 @@
+package lcmslam.spy;
+
+import java.awt.image.BufferedImage;
+import java.util.ArrayList;
+import java.util.HashMap;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import lcmslam.occupancy_grid_t;
+import lcmslam.planar_lidar_t;
+import lcmslam.planar_scan_t;
+import lcmslam.pose_t;
+import lcmslam.pose_xyt_t;
+import lcmslam.rigid_transform_t;
+import lcmslam.sdf_tile_t;
+
+/** The latest scan, poses with trails, and map, as the map view draws them. Bounded in memory. Any thread. */
+final class PlanarWorld {
+  /** Lidar frame, m; only returns. */
+  static final class Scan {
+    final long utime;
+    final float[] x, y;
+
+    private Scan(long utime, float[] ranges, Angle angle) {
+      this.utime = utime;
+      float[] px = new float[ranges.length], py = new float[ranges.length];
+      int n = 0;
+      for (int i = 0; i < ranges.length; ++i) {
+        if (!(ranges[i] > 0) || Float.isInfinite(ranges[i])) continue;
+        px[n] = (float) (ranges[i] * Math.cos(angle.at(i)));
+        py[n++] = (float) (ranges[i] * Math.sin(angle.at(i)));
+      }
+      x = java.util.Arrays.copyOf(px, n);
+      y = java.util.Arrays.copyOf(py, n);
+    }
+
+    private interface Angle {
+      double at(int beam);
+    }
+
+    static Scan of(planar_scan_t m) {
+      return new Scan(m.utime, m.ranges, i -> m.thetas[i]);
+    }
+
+    static Scan of(planar_lidar_t m) {
+      return new Scan(m.utime, m.ranges, i -> m.rad0 + i * m.radstep);
+    }
+  }
+
+  /** T_map_body in the plane. */
+  static final class Pose {
+    final long utime;
+    final double x, y, yaw;
+
+    Pose(long utime, double x, double y, double yaw) {
+      this.utime = utime;
+      this.x = x;
+      this.y = y;
+      this.yaw = yaw;
+    }
+
+    static Pose of(pose_t m) {
+      return new Pose(m.utime, m.pos[0], m.pos[1], yaw(m.orientation));
+    }
+
+    static Pose of(pose_xyt_t m) {
+      return new Pose(m.utime, m.x, m.y, m.theta);
+    }
+
+    static double yaw(double[] q) {
+      return Math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
+    }
+
+    boolean isFinite() {
+      return !Double.isNaN(x + y + yaw) && !Double.isInfinite(x + y + yaw);
+    }
+  }
+
+  /** The way one pose channel went. When it grows too long every second point goes. */
+  static final class Trail {
+    static final int MAX_POINTS = 20000;
+    final List<Pose> poses = new ArrayList<>();
+    Pose latest;
+    private int stride = 1, skipped;
+
+    void add(Pose pose) {
+      if (latest != null && pose.utime < latest.utime) restart();  // a service that began again
+      latest = pose;
+      if (++skipped < stride) return;
+      skipped = 0;
+      poses.add(pose);
+      if (poses.size() < MAX_POINTS) return;
+      List<Pose> kept = new ArrayList<>();
+      for (int i = 0; i < poses.size(); i += 2) kept.add(poses.get(i));
+      poses.clear();
+      poses.addAll(kept);
+      stride *= 2;
+    }
+
+    private void restart() {
+      poses.clear();
+      stride = 1;
+      skipped = 0;
+    }
+  }
+
+  /** A picture of a part of the map; row 0 of the picture is its top. */
+  static final class Patch {
+    final double left, bottom, width, height;  // m, map frame
+    final BufferedImage image;
+    final long utime;
+
+    Patch(double left, double bottom, double width, double height, BufferedImage image, long utime) {
+      this.left = left;
+      this.bottom = bottom;
+      this.width = width;
+      this.height = height;
+      this.image = image;
+      this.utime = utime;
+    }
+  }
+
+  private static final int MAX_TILES = 20000;
+  private final Map<Long, Patch> tiles = new HashMap<>();
+  private final Map<String, Trail> trails = new TreeMap<>();
+  private final Map<String, Scan> scans = new TreeMap<>();
+  private final Map<String, double[]> mountings = new TreeMap<>();  // x, y, yaw of T_body_lidar by lidar channel
+  private Patch grid;
+  private long newestTile = Long.MIN_VALUE;
+
+  synchronized void setScan(String channel, Scan scan) {
+    scans.put(channel, scan);
+  }
+
+  synchronized void addPose(String channel, Pose pose) {
+    if (pose.isFinite()) trails.computeIfAbsent(channel, c -> new Trail()).add(pose);
+  }
+
+  synchronized void setMounting(String channel, rigid_transform_t m) {
+    String lidar = channel.replaceAll("_EXTRINSICS$", "");
+    mountings.put(lidar, new double[] {m.trans[0], m.trans[1], Pose.yaw(m.quat)});
+  }
+
+  synchronized void setTile(sdf_tile_t m) {
+    int side = m.cells_per_side;
+    if (side < 1 || m.num_cells != side * side) return;
+    if (m.utime < newestTile || tiles.size() >= MAX_TILES) tiles.clear();  // the service began a new map
+    newestTile = m.utime;
+    BufferedImage image = new BufferedImage(side, side, BufferedImage.TYPE_INT_ARGB);
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        int i = y * side + x;
+        double cells = m.distance[i] * m.meters_per_unit / m.meters_per_cell;
+        image.setRGB(x, side - 1 - y, m.weight[i] == 0 ? 0 : Palette.distance(cells));
+      }
+    }
+    double size = side * m.meters_per_cell, half = 0.5 * m.meters_per_cell;
+    tiles.put(((long) m.tile_x << 32) ^ (m.tile_y & 0xffffffffL),
+        new Patch(m.tile_x * size - half, m.tile_y * size - half, size, size, image, m.utime));
+  }
+
+  synchronized void setGrid(occupancy_grid_t m) {
+    if (m.width < 1 || m.height < 1 || (long) m.width * m.height != m.num_cells) return;
+    BufferedImage image = new BufferedImage(m.width, m.height, BufferedImage.TYPE_INT_ARGB);
+    for (int y = 0; y < m.height; ++y) {
+      for (int x = 0; x < m.width; ++x) image.setRGB(x, m.height - 1 - y, Palette.occupancy(m.cells[y * m.width + x]));
+    }
+    grid = new Patch(m.origin_x, m.origin_y, m.width * m.meters_per_cell, m.height * m.meters_per_cell, image, m.utime);
+  }
+
+  synchronized List<Patch> tiles() {
+    return new ArrayList<>(tiles.values());
+  }
+
+  /** Null before the first. */
+  synchronized Patch grid() {
+    return grid;
+  }
+
+  /** What is drawn of one pose channel. */
+  static final class Way {
+    final String channel;
+    final Pose latest;
+    final List<Pose> poses;
+
+    Way(String channel, Trail trail) {
+      this.channel = channel;
+      latest = trail.latest;
+      poses = new ArrayList<>(trail.poses);
+    }
+  }
+
+  synchronized List<Way> ways() {
+    List<Way> ways = new ArrayList<>();
+    for (Map.Entry<String, Trail> e : trails.entrySet()) ways.add(new Way(e.getKey(), e.getValue()));
+    return ways;
+  }
+
+  synchronized Map<String, Scan> scans() {
+    return new TreeMap<>(scans);
+  }
+
+  /** Zeros where nothing is known. */
+  synchronized double[] mounting(String lidar) {
+    return mountings.getOrDefault(lidar, new double[3]).clone();
+  }
+
+  synchronized void clear() {
+    tiles.clear();
+    trails.clear();
+    scans.clear();
+    grid = null;
+    newestTile = Long.MIN_VALUE;
+  }
+}
