@@ -1,16 +1,15 @@
 #include "sensors/carmen_log.h"
 
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "geometry/angles.h"
 #include "sensors/bad_input.h"
 #include "sensors/input_file.h"
+#include "sensors/text_lines.h"
 
 namespace lcmslam {
 namespace {
@@ -21,27 +20,7 @@ constexpr double kMaxStamp_s = 9e12;  // fits int64 microseconds
 using Tokens = std::vector<std::string_view>;
 using TokenSpan = std::span<const std::string_view>;
 
-Tokens Split(std::string_view line) {
-  constexpr std::string_view kSpace = " \t\r";
-  Tokens tokens;
-  for (size_t begin = line.find_first_not_of(kSpace); begin != std::string_view::npos;) {
-    const size_t end = std::min(line.find_first_of(kSpace, begin), line.size());
-    tokens.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kSpace, end);
-  }
-  return tokens;
-}
-
-template <class Number>
-Number Parse(std::string_view token) {
-  Number value{};
-  const char* end = token.data() + token.size();
-  const auto [stop, error] = std::from_chars(token.data(), end, value);
-  if (error != std::errc() || stop != end) throw BadInput(fmt::format("'{}' is not a number", token));
-  return value;
-}
-
-double Real(std::string_view token) { return Parse<double>(token); }
+double Real(std::string_view token) { return ParseNumber<double>(token); }
 
 Pose2 PoseAt(TokenSpan tokens, size_t i) { return {Real(tokens[i]), Real(tokens[i + 1]), Real(tokens[i + 2])}; }
 
@@ -61,7 +40,7 @@ void RequireTokens(TokenSpan tokens, size_t count) {
 // The count at token i, checked against the tokens that are there.
 size_t CountAt(TokenSpan tokens, size_t i) {
   if (i >= tokens.size()) throw BadInput(fmt::format("{} ends early", tokens[0]));
-  const auto count = Parse<uint32_t>(tokens[i]);
+  const auto count = ParseNumber<uint32_t>(tokens[i]);
   if (count > tokens.size() - i - 1) {
     throw BadInput(fmt::format("{} announces {} values, but only {} follow", tokens[0], count, tokens.size() - i - 1));
   }
@@ -98,7 +77,7 @@ CarmenReader::CarmenReader(const std::filesystem::path& path, const CarmenOption
 std::optional<CarmenRecord> CarmenReader::Next() {
   try {
     while (ReadLine()) {
-      const Tokens tokens = Split(line_);
+      const Tokens tokens = SplitWords(line_);
       if (tokens.empty() || tokens[0].starts_with('#')) continue;
       if (auto record = Parse(tokens)) return record;
     }

@@ -1,0 +1,79 @@
+#include "sensors/point_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "sensors/bad_input.h"
+
+namespace lcmslam {
+namespace {
+
+using Column = std::vector<double>;
+
+constexpr double kLongestSweep_us = 2e9;
+
+// The first of these columns that is there.
+const Column* Find(const PointTable& table, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    if (const auto column = table.columns.find(name); column != table.columns.end()) return &column->second;
+  }
+  return nullptr;
+}
+
+const Column& Need(const PointTable& table, std::string_view name) {
+  const Column* column = Find(table, {name});
+  if (column == nullptr) throw BadInput(fmt::format("points without {}", name));
+  return *column;
+}
+
+void SetTimes(const Column& times, double us_per_unit, std::vector<SweepPoint>& points) {
+  if (points.empty()) return;
+  const double last = std::ranges::max(times);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double dt_us = us_per_unit * (times[i] - last);
+    if (!(dt_us >= -kLongestSweep_us)) throw BadInput("points with absurd times");
+    points[i].dt_us = static_cast<int32_t>(std::lround(dt_us));
+  }
+}
+
+void SetRings(const Column& rings, std::vector<SweepPoint>& points) {
+  for (size_t i = 0; i < points.size(); ++i) {
+    const bool fits = rings[i] >= 0.0 && rings[i] <= std::numeric_limits<int16_t>::max();
+    if (!fits) throw BadInput(fmt::format("point of ring {}", rings[i]));
+    points[i].ring = static_cast<int16_t>(rings[i]);
+  }
+}
+
+}  // namespace
+
+std::vector<double>& PointTable::AddColumn(const std::string& name) {
+  const auto [column, added] = columns.try_emplace(name);
+  if (!added) throw BadInput(fmt::format("{} twice", name));
+  return column->second;
+}
+
+std::vector<SweepPoint> ToSweepPoints(const PointTable& table) {
+  const Column &x = Need(table, "x"), &y = Need(table, "y"), &z = Need(table, "z");
+  const Column* intensity = Find(table, {"intensity", "i", "reflectivity"});
+  std::vector<SweepPoint> points(table.num_points);
+  for (size_t i = 0; i < points.size(); ++i) {
+    points[i].x = static_cast<float>(x[i]);
+    points[i].y = static_cast<float>(y[i]);
+    points[i].z = static_cast<float>(z[i]);
+    if (intensity != nullptr) points[i].intensity = static_cast<float>((*intensity)[i]);
+  }
+  if (const Column* rings = Find(table, {"ring", "laser_id"})) SetRings(*rings, points);
+  if (const Column* nanoseconds = Find(table, {"t"})) {
+    SetTimes(*nanoseconds, 1e-3, points);
+  } else if (const Column* seconds = Find(table, {"time", "timestamp"})) {
+    SetTimes(*seconds, 1e6, points);
+  }
+  return points;
+}
+
+}  // namespace lcmslam
