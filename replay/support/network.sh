@@ -25,7 +25,7 @@ claim_bus() {
   for ((port = 7700; port < 7900; port++)); do
     exec {port_lock}>"$locks/$port"
     if flock -n "$port_lock" && port_is_free "$port"; then
-      lcm_url="udpm://239.255.76.67:$port?ttl=0"
+      lcm_url="udpm://239.255.76.67:$port?ttl=0&recv_buf_size=2097152"
       return
     fi
     exec {port_lock}>&-

@@ -19,7 +19,7 @@ wait_until() {
   local name=$1 deadline=$((SECONDS + 20))
   shift
   until "$@"; do
-    is_running "$name" || fail_with "$name"
+    is_running "$name" || { finish "$name" && die "$name ended at once"; }
     ((SECONDS < deadline)) || die "$name: not ready after 20 s"
     sleep 0.02
   done
@@ -27,24 +27,18 @@ wait_until() {
 
 says_ready() { grep -qx READY "${log_of[$1]}"; }
 
-# finish NAME: waits for its end; the run ends when it failed.
+# finish NAME: waits for its end; when it failed the run ends with its exit code and the last line it wrote.
 finish() {
-  wait "${pid_of[$1]}" || fail_with "$1"
+  local code=0
+  wait "${pid_of[$1]}" || code=$?
   unset "pid_of[$1]"
+  ((code == 0)) || die "$1 ended with code $code: $(tail -n 1 "${log_of[$1]}")" "$code"
 }
 
 # stop NAME: asks it to end and waits until it has done so.
 stop() {
   kill -TERM "${pid_of[$1]}" 2>/dev/null || true
   finish "$1"
-}
-
-# fail_with NAME: ends the run with the last line and the exit code of a process that failed.
-fail_with() {
-  local code=0
-  wait "${pid_of[$1]}" || code=$?
-  unset "pid_of[$1]"
-  die "$1 ended early: $(tail -n 1 "${log_of[$1]}")" "$((code == 0 ? exit_runtime : code))"
 }
 
 # Ends what still runs, asking once.

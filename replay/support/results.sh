@@ -17,6 +17,8 @@ open_results() {
 
 # Writes SHA256SUMS and points the link `latest` beside the folder to it.
 seal_results() {
-  (cd "$results" && find . -type f ! -name SHA256SUMS -printf '%P\0' | LC_ALL=C sort -z | xargs -0 sha256sum >SHA256SUMS)
+  local sums
+  sums=$(cd "$results" && find . -type f -printf '%P\0' | LC_ALL=C sort -z | xargs -0 sha256sum)
+  printf '%s\n' "$sums" >"$results/SHA256SUMS"
   ln -sfn "$(basename "$results")" "$(dirname "$results")/latest"
 }

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# replay/run: says in one line what is wrong, ends what it started however it ends, keeps earlier results.
+set -euo pipefail
+. "$(dirname "$0")/../support/script.sh"
+
+main() {
+  "$bin/sensor-bridge" simulate --episode "$root/replay/episodes/room5_low.pbtxt" --set duration_s=5 --quiet --log-out episode.lcm
+  refuses
+  cleans_up
+  keeps_results
+  finish_test
+}
+
+refuses() {
+  check_refused "no log" 2 "which log" "$root/replay/run"
+  check_refused "missing log" 3 "none.lcm: cannot be read" "$root/replay/run" none.lcm
+  check_refused "unknown option" 2 "--frobnicate" "$root/replay/run" episode.lcm --frobnicate
+  check_refused "option without value" 2 "--out: needs a value" "$root/replay/run" episode.lcm --out
+  check_refused "speed that is none" 2 "--speed fast" "$root/replay/run" episode.lcm --live --speed fast
+  check_refused "system that is none" 2 "hector" "$root/replay/run" episode.lcm --systems hector
+  check_refused "bad configuration of a service" 2 "run: sdf2d-slam ended with code 2: .*cell_m" \
+    "$root/replay/run" episode.lcm --set sdf2d-slam:cell_m=-1
+  head -c 10000 /dev/zero >damaged.bag
+  check_refused "damaged bag" 3 "damaged.bag" "$root/replay/run" damaged.bag
+}
+
+# On SIGINT and SIGTERM in the middle of a live run.
+cleans_up() {
+  local signal code
+  for signal in INT TERM; do
+    start run run.log env --default-signal=INT setsid "$root/replay/run" episode.lcm --live --out "$signal"
+    wait_until run grep -q Playing run.log
+    sleep 1.5
+    check "services run before SIG$signal" test "$(services_of "$signal")" -ge 3
+    code=0
+    kill -s "$signal" "${pid_of[run]}"
+    wait "${pid_of[run]}" || code=$?
+    unset "pid_of[run]"
+    check "SIG$signal ends the run" test $code -gt 128
+    check "no service is left after SIG$signal" test "$(services_of "$signal")" = 0
+  done
+}
+
+# How many processes work in results folder $1 of this test.
+services_of() { pgrep -fc "[ =]$1/[^ ]*-episode" || true; }
+
+keeps_results() {
+  "$root/replay/run" episode.lcm --out kept
+  "$root/replay/run" episode.lcm --out kept
+  check "two folders and the link" test "$(find kept -mindepth 1 -maxdepth 1 | wc -l)" = 3
+  check "latest is the newer one" test "$(readlink kept/latest)" = "$(find kept -mindepth 1 -maxdepth 1 -type d -printf '%f\n' | sort -V | tail -n 1)"
+}
+
+main "$@"
