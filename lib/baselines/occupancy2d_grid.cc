@@ -42,7 +42,10 @@ void LogOddsGrid::Insert(const Eigen::Vector2d& sensor_map, std::span<const Eige
     ends.push_back(CellOf(p));
     low = Min(low, ends.back()), high = Max(high, ends.back());
   }
+  if (ends.empty()) return;
   GrowToHold(low, high);
+  seen_low_ = scan_ == 0 ? low : Min(seen_low_, low);
+  seen_high_ = scan_ == 0 ? high : Max(seen_high_, high);
   ++scan_;
   // Ends first: then no beam of this scan can clear them.
   for (const GridCell& end : ends) AddOncePerScan(end, log_odds_occupied_);
@@ -62,24 +65,19 @@ GridCell LogOddsGrid::CellOf(const Eigen::Vector2d& p_map) const {
 }
 
 OccupancyGrid LogOddsGrid::ToOccupancyGrid() const {
-  GridCell low{width_, height_}, high{-1, -1};  // within the rectangle
-  for (int row = 0; row < height_; ++row) {
-    for (int column = 0; column < width_; ++column) {
-      if (cells_[static_cast<size_t>(row) * width_ + column].last_scan == 0) continue;
-      low = Min(low, {column, row}), high = Max(high, {column, row});
-    }
-  }
   OccupancyGrid grid;
   grid.cell_m = options_.cell_m;
-  if (high.x < 0) return grid;
-  grid.origin_m = Eigen::Vector2d(low_.x + low.x - 0.5, low_.y + low.y - 0.5) * options_.cell_m;
-  grid.width = high.x - low.x + 1;
-  grid.height = high.y - low.y + 1;
-  grid.cells.reserve(static_cast<size_t>(grid.width) * grid.height);
-  for (int row = low.y; row <= high.y; ++row) {
-    for (int column = low.x; column <= high.x; ++column) {
-      grid.cells.push_back(QuantizeLogOdds(cells_[static_cast<size_t>(row) * width_ + column].log_odds));
-    }
+  if (cells_.empty()) return grid;
+  grid.origin_m = Eigen::Vector2d(seen_low_.x - 0.5, seen_low_.y - 0.5) * options_.cell_m;
+  grid.width = seen_high_.x - seen_low_.x + 1;
+  grid.height = seen_high_.y - seen_low_.y + 1;
+  grid.cells.resize(static_cast<size_t>(grid.width) * grid.height);
+  auto drawn = grid.cells.begin();
+  for (int y = seen_low_.y; y <= seen_high_.y; ++y) {
+    const Cell* row = &cells_[Index({seen_low_.x, y})];
+    drawn = std::transform(row, row + grid.width, drawn, [](const Cell& cell) {
+      return cell.last_scan == 0 ? int8_t{0} : QuantizeLogOdds(cell.log_odds);
+    });
   }
   return grid;
 }

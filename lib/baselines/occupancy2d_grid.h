@@ -90,7 +90,8 @@ class LogOddsGrid {
   float log_odds_free_;
   float log_odds_occupied_;
   uint32_t scan_ = 0;
-  GridCell low_;  // of the rectangle
+  GridCell seen_low_, seen_high_;  // the corner cells of what was seen
+  GridCell low_;                   // the corner of the rectangle
   int width_ = 0;
   int height_ = 0;
   std::vector<Cell> cells_;         // row by row

@@ -32,11 +32,13 @@ OccupancyGrid CoarsenedTo(OccupancyGrid grid, int max_cells) {
   if (k == 1) return grid;
   OccupancyGrid coarse{grid.origin_m, k * grid.cell_m, parts(grid.width, k), parts(grid.height, k), {}};
   coarse.cells.assign(static_cast<size_t>(coarse.width) * static_cast<size_t>(coarse.height), 0);
+  const auto merge = [](int8_t a, int8_t b) { return a > 0 || b > 0 ? std::max(a, b) : std::min(a, b); };
   for (int row = 0; row < grid.height; ++row) {
-    for (int column = 0; column < grid.width; ++column) {
-      const int8_t cell = grid.At(column, row);
-      int8_t& merged = coarse.cells[static_cast<size_t>(row / k) * coarse.width + column / k];
-      merged = cell > 0 || merged > 0 ? std::max(cell, merged) : std::min(cell, merged);
+    const int8_t* cell = &grid.cells[static_cast<size_t>(row) * grid.width];
+    int8_t* merged = &coarse.cells[static_cast<size_t>(row / k) * coarse.width];
+    for (int begin = 0; begin < grid.width; begin += k, ++merged) {
+      for (int column = begin; column < std::min(begin + k, grid.width); ++column)
+        *merged = merge(*merged, cell[column]);
     }
   }
   return coarse;
@@ -45,7 +47,8 @@ OccupancyGrid CoarsenedTo(OccupancyGrid grid, int max_cells) {
 int8_t QuantizeLogOdds(double log_odds) {
   if (std::isnan(log_odds)) return 0;
   const double steps = std::clamp(10.0 * log_odds, -127.0, 127.0);
-  return static_cast<int8_t>(steps < 0.0 ? std::floor(steps) : std::ceil(steps));
+  const int towards_zero = static_cast<int>(steps);
+  return static_cast<int8_t>(towards_zero + (steps > towards_zero) - (steps < towards_zero));
 }
 
 std::string EncodePgm(const OccupancyGrid& grid) {
