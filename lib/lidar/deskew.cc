@@ -18,16 +18,37 @@ std::vector<ScanPoint> ReturnsInBody(const PlanarScan& scan, const Pose2& T_body
   return points;
 }
 
+namespace {
+
+// Pose2::Exp, cheap for the small angles of one sweep.
+struct Motion {
+  double c, s, x, y;
+
+  explicit Motion(const Eigen::Vector3d& twist) {
+    const double w = twist.z();
+    const double w2 = w * w;
+    if (w2 > 0.01) {
+      const Pose2 T = Pose2::Exp(twist);
+      c = T.cos(), s = T.sin(), x = T.x(), y = T.y();
+      return;
+    }
+    const double a = 1.0 - w2 / 6.0 * (1.0 - w2 / 20.0);               // sin(w) / w
+    const double b = w / 2.0 * (1.0 - w2 / 12.0 * (1.0 - w2 / 30.0));  // (1 - cos(w)) / w
+    c = 1.0 - w * b, s = w * a;
+    x = a * twist.x() - b * twist.y(), y = b * twist.x() + a * twist.y();
+  }
+  Eigen::Vector2d operator*(const Eigen::Vector2d& p) const {
+    return {x + c * p.x() - s * p.y(), y + s * p.x() + c * p.y()};
+  }
+};
+
+}  // namespace
+
 void Deskew(std::span<const ScanPoint> points, const Eigen::Vector3d& twist_body, std::vector<Eigen::Vector2d>* p_end) {
   p_end->resize(points.size());
-  double dt_s = 0.0;
-  Pose2 T_end_beam;  // of the last distinct time
   for (size_t i = 0; i < points.size(); ++i) {
-    if (points[i].dt_s != dt_s) {
-      dt_s = points[i].dt_s;
-      T_end_beam = Pose2::Exp(twist_body * dt_s);
-    }
-    (*p_end)[i] = T_end_beam * points[i].p_body;
+    const double dt_s = points[i].dt_s;
+    (*p_end)[i] = dt_s == 0.0 ? points[i].p_body : Motion(twist_body * dt_s) * points[i].p_body;
   }
 }
 

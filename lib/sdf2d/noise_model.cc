@@ -7,9 +7,10 @@ namespace lcmslam::sdf2d {
 namespace {
 
 constexpr int kStride = 3;            // beams between the three; neighbours share quantisation and spot overlap
+constexpr size_t kEvery = 2;          // triples looked at
 constexpr double kMaxRatio = 1.3;     // of ranges within a triple; beyond lies an edge
 constexpr double kForget = 0.97;      // per scan
-constexpr double kMinCount = 40.0;    // triples a range bin needs to be believed
+constexpr double kMinCount = 20.0;    // triples a range bin needs to be believed
 constexpr double kSmallest_m = 1e-4;  // of the histogram, 8 levels per factor of 2
 constexpr double kLevelsPerOctave = 8.0;
 constexpr double kQuantile = 0.5;
@@ -32,7 +33,7 @@ void NoiseModel::Observe(std::span<const ScanPoint> points, const Eigen::Vector2
   for (RangeBin& bin : bins_) {
     for (float& count : bin.count) count *= static_cast<float>(kForget);
   }
-  for (size_t i = 0; i + 2 * kStride < points.size(); ++i) {
+  for (size_t i = 0; i + 2 * kStride < points.size(); i += kEvery) {
     const Eigen::Vector2d a = points[i].p_body - origin_body;
     const Eigen::Vector2d b = points[i + kStride].p_body - origin_body;
     const Eigen::Vector2d c = points[i + 2 * kStride].p_body - origin_body;

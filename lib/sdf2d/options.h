@@ -38,7 +38,7 @@ struct RegistrationOptions {
   double inlier_sigmas = 3.0;      // residuals below count as inliers
   double map_sigma_m = 0.003;      // m; the map's own error, added to every beam's
   double min_cos_incidence = 0.3;  // grazing beams weigh no more than this one
-  double stop_sigmas = 0.02;       // stop when a step is shorter than this part of the pose's own sigma
+  double stop_sigmas = 0.1;        // stop when a step is shorter than this part of the pose's own sigma
   double min_eigenvalue = 0.006;   // a direction seen by less than this part of the beams is unobservable
   int min_points = 20;
 

@@ -15,20 +15,40 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// The quadratic model of the scan's cost around a state. With a_i = d phi_i / d pose, the derivative by the twist is
-// dt_i a_i, so three 3x3 sums hold the whole 6x6 matrix.
+// sum w a a^T and sum w a phi of one power of dt.
+struct NormalSums {
+  double xx = 0.0, xy = 0.0, xt = 0.0, yy = 0.0, yt = 0.0, tt = 0.0;
+  double x = 0.0, y = 0.0, t = 0.0;
+
+  void Add(double w, double r, double ax, double ay, double at) {
+    const double wx = w * ax, wy = w * ay, wt = w * at;
+    xx += wx * ax, xy += wx * ay, xt += wx * at, yy += wy * ay, yt += wy * at, tt += wt * at;
+    x += wx * r, y += wy * r, t += wt * r;
+  }
+  Matrix3d Matrix() const { return (Matrix3d() << xx, xy, xt, xy, yy, yt, xt, yt, tt).finished(); }
+  Vector3d Vector() const { return {x, y, t}; }
+};
+
+// The quadratic model of the scan's cost around a state. With a = d phi / d pose, the derivative by the twist is dt a,
+// so three 3x3 sums hold the whole 6x6 matrix.
 struct Linearization {
   Matrix3d a_a = Matrix3d::Zero();      // sum w a a^T
   Matrix3d dt_a_a = Matrix3d::Zero();   // sum w dt a a^T
   Matrix3d dt2_a_a = Matrix3d::Zero();  // sum w dt^2 a a^T
   Vector3d a_r = Vector3d::Zero();      // sum w a phi
   Vector3d dt_a_r = Vector3d::Zero();   // sum w dt a phi
-  double cost = 0.0;                    // unmatched points cost as much as the worst inlier
+  double cost = 0.0;                    // points without a surface cost as much as the worst inlier
   double inlier_sum_m2 = 0.0;
   double sum_weights = 0.0;
   double sum_lever_m2 = 0.0;
   int matched = 0;
   int inliers = 0;
+
+  // Forgets what the scan says along the directions that `keep` projects away.
+  void Project(const Matrix3d& keep) {
+    for (Matrix3d* m : {&a_a, &dt_a_a, &dt2_a_a}) *m = (keep.transpose() * *m * keep).eval();
+    for (Vector3d* v : {&a_r, &dt_a_r}) *v = (keep.transpose() * *v).eval();
+  }
 };
 
 struct Problem {
@@ -44,51 +64,58 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
   const RegistrationOptions& options = problem.options;
   const double min_cos2 = options.min_cos_incidence * options.min_cos_incidence;
   const double map_variance = options.map_sigma_m * options.map_sigma_m;
-  const double cost_cap = options.huber_sigmas * (2.0 * options.inlier_sigmas - options.huber_sigmas);
-  const auto rotate = [&](const Vector2d& v) {
-    return Vector2d(T_map_body.cos() * v.x() - T_map_body.sin() * v.y(),
-                    T_map_body.sin() * v.x() + T_map_body.cos() * v.y());
-  };
+  const double huber = options.huber_sigmas;
+  const double inlier2 = options.inlier_sigmas * options.inlier_sigmas;
+  const double cost_cap = huber * (2.0 * options.inlier_sigmas - huber);
+  const double c = T_map_body.cos(), s = T_map_body.sin();
+  const Vector2d origin_map = T_map_body * problem.origin_body;
   SdfReader reader(problem.map);
   Linearization sum;
+  NormalSums by_dt[3];
   for (size_t i = 0; i < p_body.size(); ++i) {
     const Vector2d& p = p_body[i];
-    const Vector2d beam = p - problem.origin_body;
-    const SdfReader::Sample sample = reader.Facing(T_map_body * p, rotate(beam));
+    const Vector2d p_map = T_map_body * p;
+    const Vector2d beam = p_map - origin_map;
+    const SdfReader::Sample sample = reader.Facing(p_map, beam);
     if (!sample.IsKnown()) {
       sum.cost += cost_cap;
       continue;
     }
-    const Vector2d g(T_map_body.cos() * sample.gradient.x() + T_map_body.sin() * sample.gradient.y(),
-                     -T_map_body.sin() * sample.gradient.x() + T_map_body.cos() * sample.gradient.y());
+    const Vector2d& g = sample.gradient;
     const double along = g.dot(beam);
     const double cos2 = along * along / (g.squaredNorm() * beam.squaredNorm() + 1e-12);
-    const double variance = problem.range_variance[i] * std::max(cos2, min_cos2) + map_variance;
-    const double sigmas = std::abs(sample.distance_m) / std::sqrt(variance);
-    const bool outer = sigmas > options.huber_sigmas;
-    const double w = (outer ? options.huber_sigmas / sigmas : 1.0) / variance;
-    sum.cost +=
-        outer ? std::min(options.huber_sigmas * (2.0 * sigmas - options.huber_sigmas), cost_cap) : sigmas * sigmas;
-
-    const Vector3d a(g.x(), g.y(), p.x() * g.y() - p.y() * g.x());
-    const Vector3d wa = w * a;
-    const Matrix3d waa = wa * a.transpose();
-    sum.a_a += waa;
-    sum.a_r += wa * sample.distance_m;
+    const double precision = 1.0 / (problem.range_variance[i] * std::max(cos2, min_cos2) + map_variance);
+    const double r = sample.distance_m;
+    const double chi2 = r * r * precision;
+    double w = precision;
+    if (chi2 > huber * huber) {
+      const double sigmas = std::sqrt(chi2);
+      w *= huber / sigmas;
+      sum.cost += std::min(huber * (2.0 * sigmas - huber), cost_cap);
+    } else {
+      sum.cost += chi2;
+    }
+    const double gx = c * g.x() + s * g.y(), gy = c * g.y() - s * g.x();  // in the body frame
+    const double gt = p.x() * gy - p.y() * gx;
+    by_dt[0].Add(w, r, gx, gy, gt);
     if (problem.has_times) {
       const double dt = problem.points[i].dt_s;
-      sum.dt_a_a += dt * waa;
-      sum.dt2_a_a += (dt * dt) * waa;
-      sum.dt_a_r += (dt * sample.distance_m) * wa;
+      by_dt[1].Add(w * dt, r, gx, gy, gt);
+      by_dt[2].Add(w * dt * dt, r, gx, gy, gt);
     }
     sum.sum_weights += w;
     sum.sum_lever_m2 += w * p.squaredNorm();
     ++sum.matched;
-    if (sigmas < options.inlier_sigmas) {
+    if (chi2 < inlier2) {
       ++sum.inliers;
-      sum.inlier_sum_m2 += sample.distance_m * sample.distance_m;
+      sum.inlier_sum_m2 += r * r;
     }
   }
+  sum.a_a = by_dt[0].Matrix();
+  sum.a_r = by_dt[0].Vector();
+  sum.dt_a_a = by_dt[1].Matrix();
+  sum.dt_a_r = by_dt[1].Vector();
+  sum.dt2_a_a = by_dt[2].Matrix();
   return sum;
 }
 
@@ -161,14 +188,7 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
       damping *= 0.1;
     }
     Linearization used = best;
-    if (!result.unobservable.isZero()) {
-      const Matrix3d keep = Matrix3d::Identity() - result.unobservable;
-      used.a_a = keep.transpose() * used.a_a * keep;
-      used.dt_a_a = keep.transpose() * used.dt_a_a * keep;
-      used.dt2_a_a = keep.transpose() * used.dt2_a_a * keep;
-      used.a_r = keep.transpose() * used.a_r;
-      used.dt_a_r = keep.transpose() * used.dt_a_r;
-    }
+    if (!result.unobservable.isZero()) used.Project(Matrix3d::Identity() - result.unobservable);
     H = prior;
     H.topLeftCorner<3, 3>() += used.a_a;
     H.topRightCorner<3, 3>() += used.dt_a_a;
