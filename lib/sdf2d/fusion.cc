@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
+
+#include "sdf2d/sdf_reader.h"
 
 namespace lcmslam::sdf2d {
 namespace {
@@ -66,6 +69,32 @@ void Fuse(const ScanField& field, const FusionOptions& options, SdfMap* map) {
     FuseVertex(seen, i, options, &tile.sheets[seen.sheet]);
     tile.revision = map->revision();
   }
+}
+
+SdfMap Coarsen(const SdfMap& fine, double coarse_cell_m, const FusionOptions& options) {
+  SdfReader reader(fine);
+  std::vector<SurfaceLine> lines;  // one short piece per vertex at a surface
+  for (const SdfTile& tile : fine.tiles()) {
+    for (int i = 0; i < SdfTile::kVertices; ++i) {
+      const Vector2d vertex = fine.cell_m() * Vector2d(tile.tile_x * SdfTile::kSide + i % SdfTile::kSide,
+                                                       tile.tile_y * SdfTile::kSide + i / SdfTile::kSide);
+      for (int sheet = 0; sheet < SdfTile::kSheets; ++sheet) {
+        const float distance_m = tile.sheets[sheet].distance_m[i];
+        const SdfReader::Sample sample = reader.At(sheet, vertex);
+        if (!(std::abs(distance_m) < fine.cell_m()) || !sample.IsKnown() || sample.gradient.norm() < 0.5) continue;
+        const Vector2d normal = sample.gradient.normalized();
+        const Vector2d half = 0.5 * fine.cell_m() * Vector2d(-normal.y(), normal.x());
+        const Vector2d foot = vertex - distance_m * normal;
+        lines.push_back({.normal = normal, .begin = foot - half, .end = foot + half});
+      }
+    }
+  }
+  ScanField field;
+  field.Rasterize(lines, Pose2(), coarse_cell_m, options);
+  SdfMap coarse(coarse_cell_m);
+  coarse.BeginRevision();
+  Fuse(field, options, &coarse);
+  return coarse;
 }
 
 void Carve(std::span<const Vector2d> p_body, const Vector2d& origin_body, const Pose2& T_map_body,

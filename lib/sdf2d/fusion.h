@@ -16,6 +16,9 @@ namespace lcmslam::sdf2d {
 // old evidence first, so that a changed world is learnt.
 void Fuse(const ScanField& field, const FusionOptions& options, SdfMap* map);
 
+// A coarser map of the same surfaces, as Fuse would have made it from the fine map's own zero crossings.
+[[nodiscard]] SdfMap Coarsen(const SdfMap& fine, double coarse_cell_m, const FusionOptions& options);
+
 // Walks every carve_every-th beam (starting at `first`) from the lidar towards its end and takes evidence from
 // vertices that claim to lie behind a surface; the others are marked as seen through. Stops short of the surface it
 // hit. p_body: end points, deskewed.

@@ -42,6 +42,8 @@ MotionModel::MotionModel(const MotionOptions& options, const Pose2& T_map_body) 
 void MotionModel::Restart(const Pose2& T_map_body) {
   state_ = MotionState{};
   state_.T_map_body = T_map_body;
+  state_.covariance.topLeftCorner<3, 3>() =
+      Vector3d(options_.start_sigma_m, options_.start_sigma_m, options_.start_sigma_rad).cwiseAbs2().asDiagonal();
   state_.covariance.bottomRightCorner<3, 3>() = StartTwistCovariance(options_);
   started_ = false;
 }
@@ -56,7 +58,7 @@ void MotionModel::Correct(int64_t utime, const MotionState& state) {
 void MotionModel::AddOdometry(int64_t utime, const Pose2& T_odom_body) {
   if (!T_odom_body.IsFinite()) return;
   if (!odometry_.empty() && utime <= odometry_.back().utime) {
-    if (1e-6 * static_cast<double>(odometry_.back().utime - utime) <= options_.max_gap_s) return;
+    if (SecondsBetween(utime, odometry_.back().utime) <= options_.max_gap_s) return;
     odometry_.clear();
   }
   if (odometry_.size() >= kMaxOdometry) odometry_.pop_front();
@@ -65,23 +67,21 @@ void MotionModel::AddOdometry(int64_t utime, const Pose2& T_odom_body) {
 
 // Between two stamps, or a little past the last one.
 std::optional<Pose2> MotionModel::OdometryAt(int64_t utime) const {
-  const auto max_gap_us = static_cast<int64_t>(1e6 * options_.max_odometry_gap_s);
   const auto after = std::lower_bound(odometry_.begin(), odometry_.end(), utime,
                                       [](const Odometry& o, int64_t t) { return o.utime < t; });
   if (after != odometry_.end() && after->utime == utime) return after->T_odom_body;
   if (after == odometry_.begin()) return std::nullopt;
   const Odometry& before = *std::prev(after);
-  if (utime - before.utime > max_gap_us) return std::nullopt;
-  const Odometry* next = after == odometry_.end() ? nullptr : &*after;
-  if (next == nullptr) return before.T_odom_body;
-  const double fraction = static_cast<double>(utime - before.utime) / static_cast<double>(next->utime - before.utime);
-  return Interpolate(before.T_odom_body, next->T_odom_body, fraction);
+  const double since_s = SecondsBetween(before.utime, utime);
+  if (since_s > options_.max_odometry_gap_s) return std::nullopt;
+  if (after == odometry_.end()) return before.T_odom_body;
+  return Interpolate(before.T_odom_body, after->T_odom_body, since_s / SecondsBetween(before.utime, after->utime));
 }
 
 MotionState MotionModel::Predict(int64_t utime) const {
   MotionState predicted = state_;
   if (!started_) return predicted;
-  const double dt = 1e-6 * static_cast<double>(utime - utime_);
+  const double dt = SecondsBetween(utime_, utime);
   const std::optional<Pose2> from = OdometryAt(utime_);
   const std::optional<Pose2> to = OdometryAt(utime);
 

@@ -14,6 +14,11 @@ namespace lcmslam::sdf2d {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
+// Of any two stamps, without overflow.
+inline double SecondsBetween(int64_t from_utime, int64_t to_utime) {
+  return 1e-6 * (static_cast<double>(to_utime) - static_cast<double>(from_utime));
+}
+
 // Pose, velocity, and how well they are known. Errors are taken in the body frame: T = T_map_body Exp(e.head(3)),
 // twist = twist_body + e.tail(3).
 struct MotionState {

@@ -22,6 +22,8 @@ struct MotionOptions {
   double angular_acceleration = 2.0;  // rad/s^2 held for 0.1 s, one sigma
   double start_speed = 1.0;           // m/s, one sigma, when nothing is known
   double start_turn_rate = 1.0;       // rad/s, one sigma, when nothing is known
+  double start_sigma_m = 0.3;         // m, one sigma, of a pose given by hand
+  double start_sigma_rad = 0.2;       // rad, the same
   double max_gap_s = 1.0;             // a longer pause between scans forgets the velocity
   double odometry_slip = 0.1;         // of the motion (m per m, rad per rad), one sigma
   double odometry_sigma_m = 0.005;    // m per increment, one sigma
@@ -79,6 +81,7 @@ struct FusionOptions {
 struct RecoveryOptions {
   double min_inlier_ratio = 0.4;  // of the beams that fell on mapped surface
   double min_overlap = 0.25;      // of the beams must fall on mapped surface
+  double min_found_ratio = 0.5;   // of all beams must be inliers where the search says it found the pose
   double suspicious_drop = 0.25;  // a fall of the inlier share below its running mean by this starts the coarse level
   double search_m = 1.0;          // half width of the correlative search around the prediction
   double search_rad = 0.6;        // ... and in yaw

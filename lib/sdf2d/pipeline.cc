@@ -1,12 +1,19 @@
 #include "sdf2d/pipeline.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "sdf2d/fusion.h"
 #include "sdf2d/recovery.h"
 #include "sdf2d/surface.h"
 
 namespace lcmslam::sdf2d {
+namespace {
+
+constexpr double kInlierSmoothing = 0.1;  // of the running mean, per scan
+
+}  // namespace
 
 Pipeline::Pipeline(const Options& options)
     : options_(options),
@@ -23,7 +30,9 @@ Result Pipeline::Process(const PlanarScan& scan) {
   std::vector<ScanPoint> points =
       ReturnsInBody(scan, options_.T_body_lidar, options_.min_range_m, options_.max_range_m);
   if (!Accepts(scan.utime, points)) return result;
-  if (!options_.deskew) std::ranges::for_each(points, [](ScanPoint& p) { p.dt_s = 0.0; });
+  for (ScanPoint& point : points) {
+    if (!options_.deskew || std::abs(point.dt_s) > options_.motion.max_gap_s) point.dt_s = 0.0;
+  }
   noise_.Observe(points, origin_body_);
   const MotionState prediction = motion_.Predict(scan.utime);
   Charge(Stage::kPrepare, &result);
@@ -51,39 +60,47 @@ Pipeline::Registration Pipeline::Register(std::span<const ScanPoint> points, con
   if (map_.empty()) {
     AlignResult begin;
     begin.state = prediction;
+    begin.state.covariance.topLeftCorner<3, 3>().setZero();  // the map's frame is where it begins
     begin.points = static_cast<int>(points.size());
-    return {begin, Status::kInitializing};
+    return {begin, options_.localize_only ? Status::kLost : Status::kInitializing};
   }
   AlignResult align = Align(map_, points, origin_body_, noise_, prediction, options_.registration);
   Charge(Stage::kRegister, result);
-
-  Status status = Status::kTracking;
   const RecoveryOptions& recovery = options_.recovery;
   if (!IsGood(align) || align.InlierRatio() < usual_inlier_ratio_ - recovery.suspicious_drop) {
     const AlignResult wide =
         AlignCoarseToFine(map_, coarse_map_, points, origin_body_, noise_, prediction, options_.registration);
     if (wide.inliers > align.inliers) align = wide;
   }
-  if (!IsGood(align)) {
-    const double widening =
-        std::min(recovery.search_m * std::exp2(scans_lost_), recovery.max_search_m) / recovery.search_m;
-    align = SearchAround(map_, coarse_map_, points, origin_body_, noise_, prediction, recovery.search_m * widening,
-                         std::min(recovery.search_rad * widening, 3.2), options_.registration);
-    status = Status::kRelocalized;
-  }
+  const bool good = IsGood(align);
+  if (!good) align = Search(points, prediction);
   Charge(Stage::kRecover, result);
 
-  if (!IsGood(align)) {
-    ++scans_lost_;
-    align.state = prediction;
-    align.state.twist_body.setZero();
-    return {align, Status::kLost};
-  }
-  if (scans_lost_ > 0) status = Status::kRelocalized;
-  if (status == Status::kTracking && !align.unobservable.isZero()) status = Status::kDegenerate;
+  if (!good && align.InlierRatio() < recovery.min_found_ratio) return GiveUp(prediction, align);
+  const bool found = !good || scans_lost_ > 0;
   scans_lost_ = 0;
-  usual_inlier_ratio_ += 0.1 * (align.InlierRatio() - usual_inlier_ratio_);
-  return {align, status};
+  usual_inlier_ratio_ += kInlierSmoothing * (align.InlierRatio() - usual_inlier_ratio_);
+  if (found) return {align, Status::kRelocalized};
+  return {align, align.unobservable.isZero() ? Status::kTracking : Status::kDegenerate};
+}
+
+AlignResult Pipeline::Search(std::span<const ScanPoint> points, const MotionState& prediction) const {
+  const RecoveryOptions& recovery = options_.recovery;
+  const double widening = std::exp2(std::min(scans_lost_, 10));
+  return SearchAround(map_, coarse_map_, points, origin_body_, noise_, prediction,
+                      std::min(recovery.search_m * widening, recovery.max_search_m),
+                      std::min(recovery.search_rad * widening, std::numbers::pi), options_.registration);
+}
+
+// The prediction stands. After much patience it is believed: the map goes on from there.
+Pipeline::Registration Pipeline::GiveUp(const MotionState& prediction, AlignResult align) {
+  ++scans_lost_;
+  align.state = prediction;
+  align.state.twist_body.setZero();
+  const int patience = options_.recovery.patience;
+  if (options_.localize_only || patience == 0 || scans_lost_ < patience) return {align, Status::kLost};
+  scans_lost_ = 0;
+  return {align, Status::kInitializing};
 }
 
 void Pipeline::UpdateMap(std::span<const ScanPoint> points, const MotionState& state, Result* result) {
@@ -120,8 +137,8 @@ bool Pipeline::Accepts(int64_t utime, std::span<const ScanPoint> points) const {
 }
 
 void Pipeline::RestartClockIfItJumped(int64_t utime) {
-  const double back_s = 1e-6 * static_cast<double>(motion_.utime() - utime);
-  if (motion_.started() && back_s > options_.motion.max_gap_s) SetPose(motion_.state().T_map_body);
+  const bool jumped_back = SecondsBetween(utime, motion_.utime()) > options_.motion.max_gap_s;
+  if (motion_.started() && jumped_back) SetPose(motion_.state().T_map_body);
 }
 
 void Pipeline::Reset() {
@@ -139,6 +156,7 @@ void Pipeline::SetMounting(const Pose2& T_body_lidar) {
 
 void Pipeline::SetMap(SdfMap map) {
   options_.cell_m = map.cell_m();
+  coarse_map_ = Coarsen(map, options_.coarse_cell_m, options_.fusion);
   map_ = std::move(map);
 }
 

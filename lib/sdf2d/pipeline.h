@@ -91,6 +91,8 @@ class Pipeline {
   void RestartClockIfItJumped(int64_t utime);
   Registration Register(std::span<const ScanPoint> points, const MotionState& prediction, Result* result);
   bool IsGood(const AlignResult& align) const;
+  AlignResult Search(std::span<const ScanPoint> points, const MotionState& prediction) const;
+  Registration GiveUp(const MotionState& prediction, AlignResult align);
   void UpdateMap(std::span<const ScanPoint> points, const MotionState& state, Result* result);
   // Adds the time since the last call to a stage.
   void Charge(Stage stage, Result* result);

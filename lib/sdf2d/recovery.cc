@@ -11,10 +11,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kSearchPoints = 120;   // of the scan
-constexpr size_t kCandidates = 6;    // refined on the maps
-constexpr double kStep_cells = 0.5;  // of the coarse map
-constexpr double kYawStep_rad = 0.05;
+constexpr int kSearchPoints = 80;    // of the scan
+constexpr size_t kCandidates = 12;   // refined on the maps
+constexpr double kStep_cells = 1.0;  // of the coarse map
+constexpr double kYawStep_rad = 0.1;
 constexpr double kCoarseSigma_cells = 0.25;  // error of the coarse map
 
 struct Candidate {
