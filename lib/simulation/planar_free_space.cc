@@ -54,7 +54,9 @@ int PlanarFreeSpace::CellAt(const Vector2d& p) const {
 }
 
 Vector2d PlanarFreeSpace::Center(int cell) const {
-  return origin_ + cell_m_ * Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
+  const int ix = cell % width_;
+  const int iy = cell / width_;
+  return origin_ + cell_m_ * Vector2d(ix + 0.5, iy + 0.5);
 }
 
 // The eight around the cell; a diagonal only where it cuts no corner.

@@ -96,8 +96,9 @@ int PlanarWorld::CellIndex(double coordinate_m, int axis) const {
 }
 
 std::span<const uint32_t> PlanarWorld::SegmentsIn(int ix, int iy) const {
-  const auto cell = static_cast<size_t>(iy * grid_size_.x() + ix);
-  return {entries_.data() + first_[cell], first_[cell + 1] - first_[cell]};
+  const int cell = iy * grid_size_.x() + ix;
+  const uint32_t* const first = &first_[static_cast<size_t>(cell)];
+  return {entries_.data() + first[0], first[1] - first[0]};
 }
 
 std::optional<SurfaceHit> PlanarWorld::CastRay(const Vector2d& origin, const Vector2d& direction,

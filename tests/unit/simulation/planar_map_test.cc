@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include <boost/random/uniform_int_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
@@ -189,6 +190,53 @@ TEST_F(MapFileTest, BadFilesAreNamedWithTheReason) {
   EXPECT_EQ(ErrorOf(yaml), "map.pgm: not a PGM of 8 bits");
   Write("map.pgm", std::string("\x89PNG\r\n\x1a\n") + "rubbish");
   EXPECT_NE(ErrorOf(yaml), "none");
+}
+
+// Bytes changed, taken out or doubled, a few at a time.
+std::string Mutate(std::string bytes, Rng& rng) {
+  const auto draw = [&](size_t below) { return boost::random::uniform_int_distribution<size_t>(0, below - 1)(rng); };
+  for (size_t i = 0, changes = 1 + draw(4); i < changes && !bytes.empty(); ++i) {
+    const size_t at = draw(bytes.size());
+    const size_t length = 1 + draw(8);
+    switch (draw(3)) {
+      case 0:
+        bytes[at] = static_cast<char>(draw(256));
+        break;
+      case 1:
+        bytes.erase(at, length);
+        break;
+      default:
+        bytes.insert(at, bytes.substr(at, length));
+    }
+  }
+  return bytes;
+}
+
+TEST_F(MapFileTest, MutatedFilesAreReadOrRefused) {
+  const std::string png_yaml = "image: map.png\nresolution: 0.1\norigin: [0, 0, 0]\n";
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = png.height = 8;
+  png.format = PNG_FORMAT_GRAY;
+  const std::vector<uint8_t> gray(64, 100);
+  ASSERT_NE(png_image_write_to_file(&png, (folder_ / "map.png").c_str(), 0, gray.data(), 0, nullptr), 0);
+  std::ostringstream png_bytes;
+  png_bytes << std::ifstream(folder_ / "map.png", std::ios::binary).rdbuf();
+
+  Rng rng = MakeRng(1, RandomStream::kObjects);
+  int read = 0;
+  int refused = 0;
+  const auto offer = [&](const std::string& yaml) { ErrorOf(Write("map.yaml", yaml)) == "none" ? ++read : ++refused; };
+  for (int i = 0; i < 300; ++i) {
+    Write("map.pgm", kPgm);
+    offer(Mutate(kYaml, rng));
+    Write("map.pgm", Mutate(kPgm, rng));
+    offer(kYaml);
+    Write("map.png", Mutate(png_bytes.str(), rng));
+    offer(png_yaml);
+  }
+  EXPECT_GT(read, 50);
+  EXPECT_GT(refused, 50);
 }
 
 }  // namespace
