@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/utime.h"
+
 namespace lcmslam {
 
 std::optional<Pose3> InterpolateAt(std::span<const StampedPose> trajectory, int64_t utime, int64_t max_gap_us) {
@@ -10,9 +12,10 @@ std::optional<Pose3> InterpolateAt(std::span<const StampedPose> trajectory, int6
   if (after->utime == utime) return after->pose;
   if (after == trajectory.begin()) return std::nullopt;
   const StampedPose& before = *std::prev(after);
-  const int64_t gap_us = after->utime - before.utime;
+  const int64_t gap_us = UtimeDifference(after->utime, before.utime);
   if (gap_us > max_gap_us) return std::nullopt;
-  return Interpolate(before.pose, after->pose, static_cast<double>(utime - before.utime) / static_cast<double>(gap_us));
+  const auto since_us = static_cast<double>(UtimeDifference(utime, before.utime));
+  return Interpolate(before.pose, after->pose, since_us / static_cast<double>(gap_us));
 }
 
 }  // namespace lcmslam

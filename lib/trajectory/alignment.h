@@ -33,7 +33,7 @@ struct Alignment {
   Pose3 T_world_map;  // from the estimate's frame into the reference's; identity unless kOk
   // Axes of rotation (unit, world frame) that the positions do not determine: none, the direction of a straight run, or
   // all that `kind` solves for when standing still. The mean difference in orientation was used about these.
-  std::vector<Eigen::Vector3d> unobservable_axes;
+  std::vector<Eigen::Vector3d> unobservable_axes = {};
 };
 
 // The rigid transform, without scale, that minimises sum |p_reference - T_world_map p_estimate|^2 in closed form

@@ -32,8 +32,8 @@ struct Association {
   double coverage() const;  // matched / all poses of the estimate; 0 for none
 };
 
-// Interpolates the reference at each stamp of the estimate, linear + SLERP, never extrapolating. Poses are finite and
-// stamps strictly increasing in both. O(n + m).
+// Interpolates the reference at each stamp of the estimate, linear + SLERP, never extrapolating. Poses are finite,
+// stamps strictly increasing in both and within +-2^62 us. O(n + m).
 [[nodiscard]] Association Associate(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
                                     const AssociationOptions& options = {});
 

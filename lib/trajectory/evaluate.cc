@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lcmslam {
 namespace {
@@ -10,48 +11,8 @@ ErrorSummary SummarizeErrors(const PoseErrors& errors) {
   return {Summarize(errors.translation_m), Summarize(errors.rotation_rad)};
 }
 
-AlignmentKind ChooseAlignment(std::span<const StampedPose> estimate, const EvaluationOptions& options) {
-  return options.alignment.value_or(IsPlanar(estimate) ? AlignmentKind::kSe2 : AlignmentKind::kSe3);
-}
-
-void AssociateAndAlign(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
-                       AlignmentKind kind, const EvaluationOptions& options, Evaluation& result) {
-  result.association = Associate(estimate, reference, options.association);
-  auto& pairs = result.association.pairs;
-  if (pairs.empty()) return;
-  if (kind == AlignmentKind::kSe2) FlattenToPlane(pairs);
-  result.alignment = Align(pairs, kind, options.align);
-  Apply(result.alignment.T_world_map, pairs);
-  result.status = EvaluationStatus::kOk;
-}
-
-// As AssociateAndAlign, with all the transforms from the joint problem.
-void CalibrateAndAssociate(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
-                           AlignmentKind kind, const EvaluationOptions& options, Evaluation& result) {
-  CalibrationOptions calibration_options = options.calibration;
-  calibration_options.alignment = kind;
-  calibration_options.max_gap_us = options.association.max_gap_us;
-  result.calibration = Calibrate(estimate, reference, calibration_options);
-  const Calibration& calibration = *result.calibration;
-  if (calibration.status != CalibrationStatus::kOk) {
-    const bool is_empty = Associate(estimate, reference, options.association).pairs.empty();
-    result.status = is_empty ? EvaluationStatus::kNothingMatched : EvaluationStatus::kCalibrationFailed;
-    return;
-  }
-  AssociationOptions association = options.association;
-  association.time_offset_us = std::llround(calibration.time_offset_s * 1e6);
-  result.association = Associate(estimate, reference, association);
-  auto& pairs = result.association.pairs;
-  if (pairs.empty()) return;
-  for (PosePair& pair : pairs) pair.estimate = pair.estimate * calibration.T_body_marker;
-  Apply(calibration.T_world_map, pairs);
-  result.alignment.status = AlignmentStatus::kOk;
-  result.alignment.kind = kind;
-  result.alignment.T_world_map = calibration.T_world_map;
-  result.status = EvaluationStatus::kOk;
-}
-
 void Measure(const EvaluationOptions& options, Evaluation& result) {
+  result.status = EvaluationStatus::kOk;
   const std::span<const PosePair> pairs = result.association.pairs;
   result.absolute_errors = AbsoluteErrors(pairs);
   result.absolute = SummarizeErrors(result.absolute_errors);
@@ -68,6 +29,31 @@ void Measure(const EvaluationOptions& options, Evaluation& result) {
   result.duration_s = static_cast<double>(pairs.back().utime - pairs.front().utime) * 1e-6;
 }
 
+Evaluation EvaluateCalibrated(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
+                              AlignmentKind kind, const EvaluationOptions& options) {
+  Evaluation result;
+  CalibrationOptions calibration_options = options.calibration;
+  calibration_options.alignment = kind;
+  calibration_options.max_gap_us = options.association.max_gap_us;
+  result.calibration = Calibrate(estimate, reference, calibration_options);
+  const Calibration& calibration = *result.calibration;
+  if (calibration.status != CalibrationStatus::kOk) {
+    const bool is_empty = Associate(estimate, reference, options.association).pairs.empty();
+    result.status = is_empty ? EvaluationStatus::kNothingMatched : EvaluationStatus::kCalibrationFailed;
+    return result;
+  }
+  AssociationOptions association = options.association;
+  association.time_offset_us = std::llround(calibration.time_offset_s * 1e6);
+  result.association = Associate(estimate, reference, association);
+  auto& pairs = result.association.pairs;
+  if (pairs.empty()) return result;
+  for (PosePair& pair : pairs) pair.estimate = pair.estimate * calibration.T_body_marker;
+  Apply(calibration.T_world_map, pairs);
+  result.alignment = {.status = AlignmentStatus::kOk, .kind = kind, .T_world_map = calibration.T_world_map};
+  Measure(options, result);
+  return result;
+}
+
 }  // namespace
 
 std::string EvaluationOptions::Validate() const {
@@ -82,14 +68,27 @@ std::string EvaluationOptions::Validate() const {
   return "";
 }
 
+AlignmentKind ChooseAlignment(const EvaluationOptions& options, bool estimate_is_planar) {
+  return options.alignment.value_or(estimate_is_planar ? AlignmentKind::kSe2 : AlignmentKind::kSe3);
+}
+
+Evaluation EvaluatePairs(Association association, AlignmentKind kind, const EvaluationOptions& options) {
+  Evaluation result;
+  result.association = std::move(association);
+  auto& pairs = result.association.pairs;
+  if (pairs.empty()) return result;
+  if (kind == AlignmentKind::kSe2) FlattenToPlane(pairs);
+  result.alignment = Align(pairs, kind, options.align);
+  Apply(result.alignment.T_world_map, pairs);
+  Measure(options, result);
+  return result;
+}
+
 Evaluation Evaluate(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
                     const EvaluationOptions& options) {
-  Evaluation result;
-  const AlignmentKind kind = ChooseAlignment(estimate, options);
-  const auto prepare = options.calibrate ? CalibrateAndAssociate : AssociateAndAlign;
-  prepare(estimate, reference, kind, options, result);
-  if (result.status == EvaluationStatus::kOk) Measure(options, result);
-  return result;
+  const AlignmentKind kind = ChooseAlignment(options, IsPlanar(estimate));
+  if (options.calibrate) return EvaluateCalibrated(estimate, reference, kind, options);
+  return EvaluatePairs(Associate(estimate, reference, options.association), kind, options);
 }
 
 }  // namespace lcmslam

@@ -52,6 +52,12 @@ struct Evaluation {
   double duration_s = 0.0;  // from the first pair to the last
 };
 
+// The alignment to use: that of the options, else by whether the estimate is planar.
+[[nodiscard]] AlignmentKind ChooseAlignment(const EvaluationOptions& options, bool estimate_is_planar);
+
+// Aligns and measures. For se2 the pairs are flattened first.
+[[nodiscard]] Evaluation EvaluatePairs(Association association, AlignmentKind kind, const EvaluationOptions& options);
+
 // Associates, aligns and measures (algorithms as named in the headers above). Poses are finite, stamps strictly
 // increasing. Pure; linear in the number of poses.
 [[nodiscard]] Evaluation Evaluate(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
