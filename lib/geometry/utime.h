@@ -12,4 +12,10 @@ inline int64_t UtimeDifference(int64_t later, int64_t earlier) {
   return later > earlier ? std::numeric_limits<int64_t>::max() : std::numeric_limits<int64_t>::min();
 }
 
+// Whether differences and small shifts of such stamps stay within int64.
+constexpr bool IsReasonableUtime(int64_t utime) {
+  constexpr int64_t kLimit = int64_t{1} << 61;
+  return -kLimit < utime && utime < kLimit;
+}
+
 }  // namespace lcmslam

@@ -4,9 +4,13 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bus/service.h"
 
+namespace CLI {
+class App;
+}
 namespace google::protobuf {
 class Message;
 }
@@ -17,7 +21,18 @@ namespace lcmslam {
 // Runs `body`; a CommandError ends it with its line and code, any other exception with kRuntime.
 int RunCommand(const std::string& name, const std::function<ExitCode()>& body);
 
-// The same for a service in terms of its parts; use RunService.
+// What the command line of every service has. With options of its own a service adds them to the same App.
+struct ServiceArguments {
+  RunOptions run;
+  std::string config_path;
+  std::vector<std::string> assignments;  // of --set
+  bool print_config = false;
+};
+void AddServiceOptions(CLI::App& app, ServiceArguments& arguments);
+// Fills an empty `config` from --config and --set.
+void LoadConfig(const ServiceArguments& arguments, google::protobuf::Message& config);
+
+// A service in terms of its parts; use RunService.
 struct ServiceParts {
   std::string name;  // "sdf2d-slam"
   std::string description;
@@ -26,6 +41,8 @@ struct ServiceParts {
   ServiceFactory make;
 };
 int RunServiceParts(int argc, char** argv, const ServiceParts& parts);
+// Live or log to log, as the options say; writes the effective configuration, prints the summary.
+ExitCode RunOnBus(const RunOptions& options, const ServiceParts& parts);
 
 // The whole main of a service. S is a Service with
 //   using Options = ...;  using Config = a Protocol Buffers message;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "evaluator/evaluation.pb.h"
+#include "evaluator/options.h"
+#include "evaluator/pose_sources.h"
+
+namespace lcmslam {
+
+// Values of lib/trajectory as the message that becomes JSON and table. NaN and infinity are left out.
+void AddSource(const PoseSource& source, result::Evaluation::Source& message);
+// Association, alignment, calibration, all errors.
+void AddEvaluation(const Evaluation& evaluation, const EvaluationOptions& options, result::Evaluation& message);
+void AddRelations(const RelationErrors& relations, result::Evaluation& message);
+// What was demanded and what was reached; call last. True when all demands are met.
+bool AddThresholds(const EvaluatorThresholds& thresholds, result::Evaluation& message);
+
+std::string ToJson(const result::Evaluation& message);
+
+}  // namespace lcmslam
