@@ -127,7 +127,8 @@ Calibration Calibrate(std::span<const StampedPose> estimate_full, std::span<cons
   result.status = CalibrationStatus::kNotConverged;
   if (!SolveInRounds(problem, estimate, reference, options)) return result;
 
-  const CalibrationProblem::Deviations sd = problem.StandardDeviations();
+  CalibrationProblem::Deviations sd = problem.StandardDeviations();
+  if (std::abs(problem.time_offset_s()) > options.max_time_offset_s) sd[0] = std::numeric_limits<double>::infinity();
   std::vector<int> unexcited;
   for (int k = 0; k < CalibrationProblem::kCalibrated; ++k) {
     if (!IsExcited(sd, k, options)) unexcited.push_back(k);
@@ -136,7 +137,6 @@ Calibration Calibrate(std::span<const StampedPose> estimate_full, std::span<cons
     problem.HoldAtStart(unexcited);
     if (!SolveInRounds(problem, estimate, reference, options)) return result;
   }
-  if (std::abs(problem.time_offset_s()) > options.max_time_offset_s + 0.05) return result;
 
   result.status = CalibrationStatus::kOk;
   result.time_offset_s = problem.time_offset_s();

@@ -101,7 +101,7 @@ bool SolveByCeres(ceres::Problem& problem) {
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  return summary.termination_type == ceres::CONVERGENCE;
+  return summary.IsSolutionUsable();  // along directions that nothing determines it may creep on
 }
 
 // J^T J of the whole problem, columns in the order of `blocks` without what is held.

@@ -31,7 +31,7 @@ class CalibrationProblem {
   void HoldAtStart(std::span<const int> parameters);
 
   // Moves the unknowns to the optimum for samples that were fitted around `fitted_offset_s`, then measures the noise
-  // that the next call weighs by. False when there are too few samples or Ceres did not converge.
+  // that the next call weighs by. False when there are too few samples or Ceres fails.
   [[nodiscard]] bool Solve(std::span<const CalibrationSample> samples, double fitted_offset_s);
 
   // Of the last Solve, which held nothing; infinite in directions that the samples tell nothing of.

@@ -12,6 +12,8 @@ constexpr size_t kMaxWaiting = 100'000;  // of one stream, when the other stays 
 
 double Seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
 
+std::string Poses(int64_t count) { return fmt::format("{} pose{}", count, count == 1 ? "" : "s"); }
+
 }  // namespace
 
 void OnlineEvaluation::AddEstimate(const StampedPose& pose) {
@@ -77,6 +79,12 @@ void OnlineEvaluation::Match() {
   }
 }
 
+Association OnlineEvaluation::FinalAssociation() const {
+  Association association = association_;
+  association.after += static_cast<int64_t>(estimate_.waiting.size());
+  return association;
+}
+
 OnlineEvaluation::Result OnlineEvaluation::ErrorSoFar() const {
   Result result;
   result.text = Describe();
@@ -108,9 +116,9 @@ std::string OnlineEvaluation::Describe() const {
       parts.push_back(fmt::format("no reference for {:.1f} s", behind_s));
     }
   }
-  if (association_.before > 0) parts.push_back(fmt::format("{} poses before the reference began", association_.before));
-  if (association_.in_gap > 0) parts.push_back(fmt::format("{} poses in gaps of the reference", association_.in_gap));
-  if (out_of_order_ > 0) parts.push_back(fmt::format("{} poses out of order left out", out_of_order_));
+  if (association_.before > 0) parts.push_back(Poses(association_.before) + " before the reference began");
+  if (association_.in_gap > 0) parts.push_back(Poses(association_.in_gap) + " in gaps of the reference");
+  if (out_of_order_ > 0) parts.push_back(Poses(out_of_order_) + " out of order left out");
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 

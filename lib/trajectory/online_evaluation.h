@@ -32,6 +32,8 @@ class OnlineEvaluation {
   AlignmentKind alignment_kind() const { return ChooseAlignment(options_, is_planar_); }
   // Pairs of the current segment, not aligned. Poses that still wait for the reference are in none of the counts.
   const Association& association() const { return association_; }
+  // The same when nothing more is to come: poses that still wait have no partner.
+  Association FinalAssociation() const;
   std::string Describe() const;
 
  private:

@@ -9,20 +9,6 @@
 #include "common/config.h"
 
 namespace lcmslam {
-namespace {
-
-void WriteEffectiveConfig(const RunOptions& options, const ServiceParts& parts) {
-  if (options.out.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  const std::filesystem::path path = options.out / (parts.name + ".pbtxt");
-  std::ofstream file(path);
-  file << ConfigText(*parts.config);
-  if (!file.flush()) throw CommandError(ExitCode::kRuntime, fmt::format("{}: cannot be written", path.string()));
-}
-
-}  // namespace
-
 int RunCommand(const std::string& name, const std::function<ExitCode()>& body) {
   try {
     return static_cast<int>(body());
@@ -54,8 +40,19 @@ void LoadConfig(const ServiceArguments& arguments, google::protobuf::Message& co
   for (const std::string& assignment : arguments.assignments) SetConfigField(assignment, config);
 }
 
+void WriteEffectiveConfig(const std::filesystem::path& out, const std::string& name,
+                          const google::protobuf::Message& config) {
+  if (out.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  const std::filesystem::path path = out / (name + ".pbtxt");
+  std::ofstream file(path);
+  file << ConfigText(config);
+  if (!file.flush()) throw CommandError(ExitCode::kRuntime, fmt::format("{}: cannot be written", path.string()));
+}
+
 ExitCode RunOnBus(const RunOptions& options, const ServiceParts& parts) {
-  WriteEffectiveConfig(options, parts);
+  WriteEffectiveConfig(options.out, parts.name, *parts.config);
   ServiceContext context(parts.name, options);
   const ExitCode code = options.log_in.empty() ? RunLive(context, parts.make) : RunLogToLog(context, parts.make);
   if (!options.quiet) fmt::print(stderr, "{}\n", context.health().Summary());

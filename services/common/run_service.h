@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -41,6 +42,9 @@ struct ServiceParts {
   ServiceFactory make;
 };
 int RunServiceParts(int argc, char** argv, const ServiceParts& parts);
+// Writes the effective configuration to OUT/NAME.pbtxt; nothing when `out` is "".
+void WriteEffectiveConfig(const std::filesystem::path& out, const std::string& name,
+                          const google::protobuf::Message& config);
 // Live or log to log, as the options say; writes the effective configuration, prints the summary.
 ExitCode RunOnBus(const RunOptions& options, const ServiceParts& parts);
 

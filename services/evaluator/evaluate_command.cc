@@ -130,7 +130,9 @@ ExitCode EvaluateRecording(const EvaluateArguments& arguments, const EvaluatorOp
                                       *message.mutable_relation_file()),
                  message);
   }
-  return Report(message, options, arguments.json);
+  const ExitCode code = Report(message, options, arguments.json);
+  if (!sources.log_damage.empty()) throw CommandError(ExitCode::kBadInput, sources.log_damage);
+  return code;
 }
 
 // run.json -> run_SDF2D_POSE.json when there are several.
@@ -154,6 +156,9 @@ ExitCode EvaluateOnBus(const EvaluateArguments& arguments, EvaluatorOptions opti
                                  [&](const EvaluatorService::Outcome& outcome) { outcomes.push_back(outcome); });
                            }};
   ExitCode code = RunOnBus(arguments.service.run, parts);
+  if (outcomes.empty() && options.thresholds.Any()) {
+    throw CommandError(ExitCode::kNothingMatched, "no poses on " + options.estimate_channel);
+  }
   for (const EvaluatorService::Outcome& outcome : outcomes) {
     result::Evaluation message;
     message.set_command(arguments.command);
@@ -200,7 +205,9 @@ ExitCode RunEvaluate(const EvaluateArguments& arguments, const config::Evaluator
     fmt::print("{}", ConfigText(config));
     return ExitCode::kOk;
   }
-  return IsOnBus(arguments) ? EvaluateOnBus(arguments, options, config) : EvaluateRecording(arguments, options);
+  if (IsOnBus(arguments)) return EvaluateOnBus(arguments, options, config);
+  WriteEffectiveConfig(arguments.service.run.out, EvaluatorService::kName, config);
+  return EvaluateRecording(arguments, options);
 }
 
 }  // namespace lcmslam

@@ -1,6 +1,7 @@
 #include "evaluator/evaluator_service.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <lcmslam/evaluation_t.hpp>
@@ -10,6 +11,8 @@
 
 namespace lcmslam {
 namespace {
+
+constexpr size_t kRecentPoses = 1000;
 
 std::optional<StampedPose> DecodeReasonablePose(const Event& event) {
   const auto pose = DecodePose(event.data);
@@ -57,6 +60,8 @@ Handled EvaluatorService::OnReference(const Event& event) {
   if (event.channel != reference_channel_) return Handled::kIgnored;
   context_.health().NoteInput(event.channel, pose->utime);
   ++reference_poses_;
+  recent_reference_.push_back(*pose);
+  if (recent_reference_.size() > kRecentPoses) recent_reference_.pop_front();
   for (auto& [channel, estimate] : estimates_) estimate.online.AddReference(*pose);
   return Handled::kAccepted;
 }
@@ -67,6 +72,9 @@ Handled EvaluatorService::OnEstimate(const Event& event) {
   if (!pose) return Handled::kRefused;
   context_.health().NoteInput(event.channel, pose->utime);
   auto [entry, is_new] = estimates_.try_emplace(event.channel, Estimate{OnlineEvaluation(options_.evaluation)});
+  if (is_new) {
+    for (const StampedPose& reference : recent_reference_) entry->second.online.AddReference(reference);
+  }
   ++entry->second.poses;
   entry->second.online.AddEstimate(*pose);
   return Handled::kAccepted;
@@ -88,7 +96,7 @@ void EvaluatorService::Finish() {
   PublishErrors();
   for (const auto& [channel, estimate] : estimates_) {
     const OnlineEvaluation& online = estimate.online;
-    Evaluation evaluation = EvaluatePairs(online.association(), online.alignment_kind(), options_.evaluation);
+    Evaluation evaluation = EvaluatePairs(online.FinalAssociation(), online.alignment_kind(), options_.evaluation);
     report_({channel, reference_channel_, estimate.poses, reference_poses_, std::move(evaluation), online.Describe()});
   }
 }

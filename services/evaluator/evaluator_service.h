@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <string>
@@ -43,6 +44,7 @@ class EvaluatorService : public Service {
   Report report_;
   std::map<std::string, Estimate> estimates_;  // by channel
   std::string reference_channel_;              // the first that had a pose
+  std::deque<StampedPose> recent_reference_;   // for estimates that begin later
   int64_t reference_poses_ = 0;
 };
 

@@ -52,6 +52,10 @@ void BindThresholds(const config::Evaluator::Thresholds& config, EvaluatorThresh
 
 }  // namespace
 
+bool EvaluatorThresholds::Any() const {
+  return max_mean_m || max_rmse_m || max_p95_m || max_error_m || max_mean_rotation_rad || min_coverage;
+}
+
 std::string EvaluatorOptions::Validate() const {
   if (estimate_channel.empty()) return "estimate_channel: must not be empty";
   if (reference_channel.empty()) return "reference_channel: must not be empty";
@@ -71,6 +75,7 @@ EvaluatorOptions CompleteOptions(config::Evaluator& config) {
   bind("min_spread_m", evaluation.align.min_spread_m);
   BindSteps(*config.mutable_rpe_step_s(), evaluation.rpe_steps_s);
   BindSteps(*config.mutable_rpe_step_m(), evaluation.rpe_steps_m);
+  if (config.thresholds().ByteSizeLong() == 0) config.clear_thresholds();
   BindThresholds(config.thresholds(), options.thresholds);
   CalibrationOptions& calibration = evaluation.calibration;
   bind.Sub("calibration")("max_time_offset_s", calibration.max_time_offset_s)("huber_sigmas", calibration.huber_sigmas)(

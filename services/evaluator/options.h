@@ -14,6 +14,7 @@ class Evaluator;
 // What a run must reach.
 struct EvaluatorThresholds {
   std::optional<double> max_mean_m, max_rmse_m, max_p95_m, max_error_m, max_mean_rotation_rad, min_coverage;
+  bool Any() const;
 };
 
 struct EvaluatorOptions {

@@ -103,9 +103,8 @@ PoseSources ReadPoseChannels(const std::filesystem::path& log, const std::string
     reference.Add(event);
     progress.Show(reader.position_bytes());
   }
-  const std::string damage = reader.DamageReport();
-  if (!damage.empty()) fmt::print(stderr, "{}\n", damage);
   PoseSources sources;
+  if (reader.damaged_bytes() > 0) sources.log_damage = reader.DamageReport();
   if (!estimate_pattern.empty()) sources.estimate = estimate.Take();
   if (!reference_pattern.empty()) sources.reference = reference.Take();
   return sources;

@@ -25,6 +25,7 @@ bool NamesFile(const std::string& name);
 PoseSource ReadPoseFile(const std::filesystem::path& path, const ReadOptions& options);
 struct PoseSources {
   PoseSource estimate, reference;
+  std::string log_damage = {};  // "" or what is wrong with the log
 };
 // Two files, read at the same time.
 PoseSources ReadPoseFiles(const std::filesystem::path& estimate, const std::filesystem::path& reference,

@@ -149,12 +149,13 @@ bool AddThresholds(const EvaluatorThresholds& thresholds, result::Evaluation& me
       static_cast<double>(relations.matched()) / static_cast<double>(relations.matched() + relations.unmatched());
   const double coverage = has_absolute ? message.association().coverage() : of_relations;
   const auto& t = error.translation_m();
-  bool met = AddThreshold("max_mean_m", thresholds.max_mean_m, t.mean(), true, message);
-  met &= AddThreshold("max_rmse_m", thresholds.max_rmse_m, t.rmse(), true, message);
-  met &= AddThreshold("max_p95_m", thresholds.max_p95_m, t.p95(), true, message);
-  met &= AddThreshold("max_error_m", thresholds.max_error_m, t.max(), true, message);
-  met &= AddThreshold("max_mean_rotation_rad", thresholds.max_mean_rotation_rad, error.rotation_rad().mean(), true,
-                      message);
+  const double known = t.has_mean() ? 1.0 : std::nan("");  // absent fields read as 0
+  bool met = AddThreshold("max_mean_m", thresholds.max_mean_m, known * t.mean(), true, message);
+  met &= AddThreshold("max_rmse_m", thresholds.max_rmse_m, known * t.rmse(), true, message);
+  met &= AddThreshold("max_p95_m", thresholds.max_p95_m, known * t.p95(), true, message);
+  met &= AddThreshold("max_error_m", thresholds.max_error_m, known * t.max(), true, message);
+  met &= AddThreshold("max_mean_rotation_rad", thresholds.max_mean_rotation_rad, known * error.rotation_rad().mean(),
+                      true, message);
   met &= AddThreshold("min_coverage", thresholds.min_coverage, coverage, false, message);
   return met;
 }

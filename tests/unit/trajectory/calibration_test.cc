@@ -41,6 +41,7 @@ Episode Record(Pose3 (*motion)(double), const Pose3& T_world_map, double noise_m
 }
 
 Pose3 StraightAndLevel(double t_s) { return ToPose3({0.4 * t_s + 0.3 * std::sin(t_s), 0.0, 0.0}); }
+Pose3 Circle(double t_s) { return ToPose3({2.0 * std::cos(0.25 * t_s), 2.0 * std::sin(0.25 * t_s), 0.25 * t_s}); }
 Pose3 Still(double) { return {}; }
 
 const Pose3 kSpatialMap{{3.0, -1.0, 0.7}, testing::RotationVector({0.3, 0.2, 2.0})};
@@ -132,6 +133,15 @@ TEST(Calibrate, WithoutTurningTheLeverArmIsNotExcited) {
   EXPECT_THAT(c.unexcited, IsSupersetOf({"lever arm x", "lever arm y"}));
   EXPECT_TRUE(std::isinf(c.lever_arm_sd_m.x()));
   EXPECT_NEAR(c.time_offset_s, kTimeOffset_s, 0.002);
+}
+
+// On a circle at constant speed a later clock looks like a turned frame.
+TEST(Calibrate, CircleDoesNotExciteTheTimeOffset) {
+  const Episode e = Record(Circle, kPlanarMap, 0.002, 0.002, 0.02, 1);
+  const Calibration c = Calibrate(e.estimate, e.reference, {.alignment = AlignmentKind::kSe2});
+  ASSERT_EQ(c.status, CalibrationStatus::kOk);
+  EXPECT_THAT(c.unexcited, Contains("time offset"));
+  EXPECT_EQ(c.time_offset_s, 0.0);
 }
 
 TEST(Calibrate, StandingStillExcitesNothing) {
