@@ -3,7 +3,7 @@
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
 
-services=(sdf2d-slam occupancy2d-slam ground-truth-logger)
+services=(sdf2d-slam occupancy2d-slam ground-truth-logger evaluator)
 declare -A options=([sdf2d-slam]="--set channels.odometry=ODOMETRY" [occupancy2d-slam]="--set channels.odometry=ODOMETRY")
 
 main() {
@@ -17,7 +17,7 @@ main() {
 log_to_log() {
   local arguments
   read -ra arguments <<<"${options[$1]:-}"
-  check "$1 survives the log" bounded "$1.log" "$bin/$1" "${arguments[@]}" --out "$1" --log-in mutated.lcm
+  check "$1 survives the log" bounded "$1.log" "$bin/$1" "${arguments[@]}" --out "$1" --log-in mutated.lcm --log-out "$1.lcm"
   check "$1 counts refusals" grep -E '[1-9][0-9]* refused' "$1.log"
 }
 

@@ -1,12 +1,12 @@
 #include "trajectory/relations.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/real_data.h"
 #include "unit/trajectory/matrix_oracle.h"
 #include "unit/trajectory/trajectories.h"
 
@@ -84,11 +84,9 @@ TEST(ReadRelations, ErrorsNameFileAndLine) {
 }
 
 TEST(ReadRelations, RealLogs) {
-  const char* variable = std::getenv("LCMSLAM_DATA");
-  const std::filesystem::path data = variable ? variable : LCMSLAM_SOURCE_DIR "/../shared/data";
-  if (!std::filesystem::exists(data / "radish")) GTEST_SKIP() << "no " << data / "radish";
-  EXPECT_EQ(ReadRelations(data / "radish/fr079.relations").relations.size(), 1685u);
-  EXPECT_EQ(ReadRelations(data / "radish/aces.relations").relations.size(), 1279u);
+  if (!std::filesystem::exists(RealData("radish"))) GTEST_SKIP() << "no " << RealData("radish");
+  EXPECT_EQ(ReadRelations(RealData("radish/fr079.relations")).relations.size(), 1685u);
+  EXPECT_EQ(ReadRelations(RealData("radish/aces.relations")).relations.size(), 1279u);
 }
 
 }  // namespace
