@@ -2,14 +2,10 @@
 
 namespace lcmslam {
 
-PoseTable::PoseTable(int32_t first_dt_us, const std::function<Pose3(double dt_us)>& T_map_lidar) : entries_(kEntries) {
-  if (first_dt_us >= 0) {
-    const Pose3 pose = T_map_lidar(0.0);
-    std::ranges::fill(entries_, Entry{pose.rotation.toRotationMatrix(), pose.translation});
-    return;
-  }
-  for (int slot = 0; slot < kEntries; ++slot) {
-    const Pose3 pose = T_map_lidar(SlotTime(slot, first_dt_us));
+PoseTable::PoseTable(const TimeSlots& slots, const std::function<Pose3(double dt_us)>& T_map_lidar)
+    : entries_(slots.has_times() ? TimeSlots::kSlots : 1) {
+  for (size_t slot = 0; slot < entries_.size(); ++slot) {
+    const Pose3 pose = T_map_lidar(slots.MiddleUs(static_cast<double>(slot)));
     entries_[slot] = {pose.rotation.toRotationMatrix(), pose.translation};
   }
 }

@@ -13,12 +13,32 @@
 
 namespace lcmslam {
 
-// The poses of a moving lidar sampled at equal steps over one sweep, so that deskewing a point is a lookup and a
-// product. With 512 entries over 0.1 s a turn of 2 rad/s displaces a point at 10 m by at most 2 mm, evenly to both
-// sides.
+// Divides the time of one sweep into equal slots.
+class TimeSlots {
+ public:
+  static constexpr int kSlots = 512;
+
+  // first_dt_us <= 0: the time of the sweep's first point relative to its last. 0: no times, all is slot 0.
+  explicit TimeSlots(int32_t first_dt_us)
+      : first_dt_us_(first_dt_us), slots_per_us_(first_dt_us < 0 ? kSlots / (1.0 - first_dt_us) : 0.0) {}
+
+  // Times outside the sweep take its ends.
+  int SlotOf(int32_t dt_us) const {
+    return std::clamp(static_cast<int>((dt_us - first_dt_us_) * slots_per_us_), 0, kSlots - 1);
+  }
+  // The middle of a slot, relative to the sweep's last point. Also between slots.
+  double MiddleUs(double slot) const { return first_dt_us_ * (1.0 - (slot + 0.5) / kSlots); }
+  bool has_times() const { return first_dt_us_ < 0; }
+
+ private:
+  double first_dt_us_;
+  double slots_per_us_;
+};
+
+// The poses of a moving lidar at the middle of each time slot of a sweep, so that deskewing a point is a lookup and a
+// product. With 512 slots in 0.1 s a turn of 2 rad/s displaces a point at 10 m by at most 2 mm, evenly to both sides.
 class PoseTable {
  public:
-  static constexpr int kEntries = 512;
   struct Entry {
     Eigen::Matrix3d R_map_lidar = Eigen::Matrix3d::Identity();
     Eigen::Vector3d t_map_lidar = Eigen::Vector3d::Zero();
@@ -26,20 +46,8 @@ class PoseTable {
     Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return R_map_lidar * p + t_map_lidar; }
   };
 
-  // first_dt_us <= 0: the time of the sweep's first point relative to its last.
-  // T_map_lidar(dt_us): the pose at that time; called once per entry.
-  PoseTable(int32_t first_dt_us, const std::function<Pose3(double dt_us)>& T_map_lidar);
-
-  // The entry that serves a point of this age; times outside the sweep take its ends.
-  static int Slot(int32_t dt_us, int32_t first_dt_us) {
-    if (first_dt_us >= 0) return 0;
-    const int64_t slot = static_cast<int64_t>(dt_us - first_dt_us) * kEntries / (1 - static_cast<int64_t>(first_dt_us));
-    return static_cast<int>(std::clamp<int64_t>(slot, 0, kEntries - 1));
-  }
-  // The middle of an entry's time, relative to the sweep's last point. All of a sweep without times is at 0.
-  static double SlotTime(int slot, int32_t first_dt_us) {
-    return first_dt_us >= 0 ? 0.0 : first_dt_us * (1.0 - (slot + 0.5) / kEntries);
-  }
+  // T_map_lidar(dt_us): the pose at that time relative to the sweep's last point; called once per slot.
+  PoseTable(const TimeSlots& slots, const std::function<Pose3(double dt_us)>& T_map_lidar);
 
   const Entry& operator[](int slot) const { return entries_[slot]; }
 

@@ -16,7 +16,8 @@ namespace {
 std::vector<Eigen::Vector3d> Deskewed(const TimedPatches& sweep, const MotionSegment& motion, size_t max_patches) {
   const double sweep_us = 1e6 * sweep.duration_s;
   const Pose3 T_end_map = motion.At(1.0).inverse();
-  const PoseTable poses(sweep.first_dt_us, [&](double dt_us) { return T_end_map * motion.At(1.0 + dt_us / sweep_us); });
+  const PoseTable poses(TimeSlots(sweep.first_dt_us),
+                        [&](double dt_us) { return T_end_map * motion.At(1.0 + dt_us / sweep_us); });
   const size_t size = sweep.patches.size(), wanted = std::min(size, max_patches);
   std::vector<Eigen::Vector3d> points(wanted);
   for (size_t i = 0; i < wanted; ++i) {

@@ -57,9 +57,10 @@ struct TrustOptions {
   int min_patches = 60;            // matched patches
   double min_inlier_ratio = 0.75;  // of the patches that met a surfel
   double max_residual = 2.0;       // weighted rms residual over its prediction
-  int young_sweeps = 5;            // the map is rebuilt from its first sweeps while their motion is still being found
-  double initial_speed_mps = 2.0;  // standard deviation of the velocity before the first sweep
-  double initial_rate_radps = 1.0;
+  double initial_speed_mps = 0.3;  // standard deviation of the velocity before the first sweep
+  double initial_rate_radps = 0.3;
+  double set_pose_m = 0.3;  // standard deviations of a pose that was set over an existing map
+  double set_pose_rad = 0.1;
   double hint_rotation_rad = 0.005;  // standard deviation of an IMU's rotation between two sweeps
   double hint_translation_m = 0.05;  // and of odometry's translation; its rotation counts as hint_odometry_rad
   double hint_odometry_rad = 0.02;

@@ -51,7 +51,7 @@ class PatchMaker {
       : sweep_(sweep),
         options_(options),
         max_variance_(kMaxThickness * kMaxThickness * range_noise_m * range_noise_m),
-        first_dt_us_(FirstPointTime(sweep)) {}
+        slots_(FirstPointTime(sweep)) {}
 
   std::vector<Patch> Make() {
     std::vector<KeyedPoint> points = KeyPoints();
@@ -65,17 +65,15 @@ class PatchMaker {
     const double finest_m = options_.cell_m / (1 << (options_.levels - 1));
     const double per_cell = 1.0 / finest_m;
     const double limit = 1 << (kAxisBits - 1);
-    const double min2 = options_.min_range_m * options_.min_range_m, max2 = options_.max_range_m * options_.max_range_m;
     std::vector<KeyedPoint> points;
     points.reserve(sweep_.points.size());
     for (uint32_t i = 0; i < sweep_.points.size(); ++i) {
       const SweepPoint& p = sweep_.points[i];
-      const double range2 = double{p.x} * p.x + double{p.y} * p.y + double{p.z} * p.z;
-      if (!(range2 >= min2 && range2 <= max2)) continue;  // also NaN
+      if (!InRange(p, options_)) continue;
       const double x = p.x * per_cell + limit, y = p.y * per_cell + limit, z = p.z * per_cell + limit;
       const auto inside = [&](double v) { return v >= 0.0 && v < 2.0 * limit; };
       if (!inside(x) || !inside(y) || !inside(z)) continue;
-      const uint64_t slice = PoseTable::Slot(p.dt_us, first_dt_us_) * options_.time_slices / PoseTable::kEntries;
+      const uint64_t slice = static_cast<uint64_t>(slots_.SlotOf(p.dt_us) * options_.time_slices / TimeSlots::kSlots);
       points.push_back({slice << (3 * kAxisBits) | Spread(static_cast<uint64_t>(x)) |
                             Spread(static_cast<uint64_t>(y)) << 1 | Spread(static_cast<uint64_t>(z)) << 2,
                         i});
@@ -100,8 +98,7 @@ class PatchMaker {
     if (level > 0 && FitPlane(statistics).variances[0] > max_variance) return Split(points, level);
     const auto mean_dt_us = static_cast<int32_t>(dt_us / static_cast<int64_t>(points.size()));
     patches_.push_back({reference + statistics.Mean(), statistics.Covariance().cast<float>(),
-                        static_cast<float>(statistics.count),
-                        static_cast<uint16_t>(PoseTable::Slot(mean_dt_us, first_dt_us_))});
+                        static_cast<float>(statistics.count), static_cast<uint16_t>(slots_.SlotOf(mean_dt_us))});
   }
 
   // Visits the cells one level finer.
@@ -122,7 +119,7 @@ class PatchMaker {
   const Sweep& sweep_;
   const PatchOptions& options_;
   const double max_variance_;
-  const int32_t first_dt_us_;
+  const TimeSlots slots_;
   std::vector<Patch> patches_;
 };
 

@@ -14,17 +14,22 @@ namespace lcmslam::octo3d {
 namespace {
 
 constexpr double kUsToS = 1e-6;
+constexpr double kMapPoseM = 1e-4, kMapPoseRad = 1e-4;  // the first pose defines the map frame
+constexpr double kLongestWalkS = 10.0;                  // beyond, more silence makes nothing worse
 
-// A known pose, a velocity of which only the size is known.
-StateBelief AtRest(const Pose3& T_map_body, const TrustOptions& trust) {
+// Pose known to within pose_m and pose_rad; of the velocity only the size is known.
+StateBelief AtRest(const Pose3& T_map_body, double pose_m, double pose_rad, const TrustOptions& trust) {
   StateBelief belief;
   belief.mean.T_map_body = T_map_body;
   Vector12 sigma;
-  sigma << Vector6::Constant(1e-4), Eigen::Vector3d::Constant(trust.initial_speed_mps),
-      Eigen::Vector3d::Constant(trust.initial_rate_radps);
+  sigma << Eigen::Vector3d::Constant(pose_m), Eigen::Vector3d::Constant(pose_rad),
+      Eigen::Vector3d::Constant(trust.initial_speed_mps), Eigen::Vector3d::Constant(trust.initial_rate_radps);
   belief.information = sigma.cwiseAbs2().cwiseInverse().asDiagonal();
   return belief;
 }
+
+// How long the sweep itself took; never zero.
+double SweepDuration(const Sweep& sweep) { return std::max(1e-3, -kUsToS * FirstPointTime(sweep)); }
 
 // Nothing moves on for ever unseen.
 void Slow(MotionState& state) {
@@ -37,50 +42,45 @@ void Slow(MotionState& state) {
 Pipeline::Pipeline(const Options& options) : options_(options), map_(options.map) { Reset(); }
 
 Result Pipeline::Process(const Sweep& sweep, const MotionHint& hint) {
-  if (IsStale(sweep)) return MakeResult(SweepStatus::kStale, {});
+  if (utime_ && sweep.utime <= *utime_) return MakeResult(SweepStatus::kStale, {});
   const std::vector<Patch> patches = MakePatches(sweep, options_.patches, options_.map.range_noise_m);
-  if (map_.num_cells() == 0) return Start(sweep);
+  if (map_.num_cells() == 0 && !options_.localise_only) return Start(sweep, patches);
 
-  const TimedPatches timed{patches, FirstPointTime(sweep), kUsToS * static_cast<double>(sweep.utime - *utime_)};
-  const RegistrationResult registration = RegisterSweep(timed, ToRelativeMotion(hint));
-  const SweepStatus status = patches.empty()        ? SweepStatus::kNoPoints
-                             : IsGood(registration) ? SweepStatus::kTracking
-                                                    : SweepStatus::kDoubtful;
-  belief_ = status == SweepStatus::kTracking ? registration.belief : registration.prediction;
-  if (status != SweepStatus::kTracking) Slow(belief_.mean);
+  const TimedPatches timed{patches, FirstPointTime(sweep), BridgeTimeTo(sweep)};
+  const RegistrationResult registration = RegisterFromAnywhere(timed, ToRelativeMotion(hint));
+
+  const bool good = IsGood(registration);
+  belief_ = good ? registration.belief : registration.prediction;
+  if (!good) Slow(belief_.mean);
   utime_ = sweep.utime;
-  Result result = MakeResult(status, registration);
+  const SweepStatus doubt = patches.empty() ? SweepStatus::kNoPoints : SweepStatus::kDoubtful;
+  Result result = MakeResult(good ? SweepStatus::kTracking : doubt, registration);
   result.patches = static_cast<int>(patches.size());
-  if (status == SweepStatus::kTracking && !options_.localise_only) {
-    Insert({sweep, timed.first_dt_us, registration.motion});
-    result.inserted = true;
-  }
+  result.inserted = good && !options_.localise_only && Insert(sweep, registration.motion);
   return result;
 }
 
-bool Pipeline::IsStale(const Sweep& sweep) { return utime_.has_value() && sweep.utime <= *utime_; }
-
-Result Pipeline::Start(const Sweep& sweep) {
+// The first sweep makes the map: at the pose that was set, and as if at rest.
+Result Pipeline::Start(const Sweep& sweep, const std::vector<Patch>& patches) {
+  belief_ = AtRest(belief_.mean.T_map_body, kMapPoseM, kMapPoseRad, options_.trust);
   utime_ = sweep.utime;
-  const int32_t first_dt_us = FirstPointTime(sweep);
-  const double duration_s = std::max(1e-3, -kUsToS * first_dt_us);
-  const MotionState from = Extrapolate(belief_.mean, -duration_s);
-  Insert({sweep, first_dt_us, MotionSegment(from, belief_.mean, duration_s)});
-  Result result = MakeResult(map_.num_cells() > 0 ? SweepStatus::kStarted : SweepStatus::kNoPoints, {});
-  result.inserted = map_.num_cells() > 0;
+  Result result = MakeResult(patches.empty() ? SweepStatus::kNoPoints : SweepStatus::kStarted, {});
+  result.patches = static_cast<int>(patches.size());
+  result.inserted = Insert(sweep, MotionSegment(belief_.mean, belief_.mean, SweepDuration(sweep)));
   return result;
 }
 
-// While the map is young, the motion within its last sweep is known only now that the next one has come: both are found
-// in turn.
-RegistrationResult Pipeline::RegisterSweep(const TimedPatches& patches, const RelativeMotion& hint) {
-  constexpr int kYoungRounds = 3;
-  RegistrationResult registration = RegisterFromAnywhere(patches, hint);
-  for (int round = 0; round < kYoungRounds && !young_.empty() && IsGood(registration); ++round) {
-    Restraighten(registration.motion.from());
-    registration = Register(map_, patches, belief_, hint, registration.motion, options_.registration);
-  }
-  return registration;
+// The time from the last state to the sweep's end. After a silence the velocity says nothing any more, and the pose as
+// much as one can move in that time.
+double Pipeline::BridgeTimeTo(const Sweep& sweep) {
+  if (!utime_) return SweepDuration(sweep);
+  const TrustOptions& trust = options_.trust;
+  const double silence_s = kUsToS * (static_cast<double>(sweep.utime) - static_cast<double>(*utime_));
+  if (silence_s <= trust.max_gap_s) return silence_s;
+  const double moving_s = std::min(silence_s, kLongestWalkS);
+  belief_ =
+      AtRest(belief_.mean.T_map_body, trust.initial_speed_mps * moving_s, trust.initial_rate_radps * moving_s, trust);
+  return trust.max_gap_s;
 }
 
 // From the prediction; where that leads to nothing good, from what a wider search makes of it, and of standing still.
@@ -102,17 +102,6 @@ RegistrationResult Pipeline::RegisterFromAnywhere(const TimedPatches& patches, c
   return best;
 }
 
-void Pipeline::Restraighten(const MotionState& last) {
-  MotionSegment& motion = young_.back().motion;
-  const bool first = young_.size() == 1;
-  const MotionState from = first ? Extrapolate(last, -motion.duration_s()) : motion.from();
-  motion = MotionSegment(from, last, motion.duration_s());
-  std::vector<PlacedSweep> sweeps = std::move(young_);
-  young_.clear();
-  map_.Clear();
-  for (PlacedSweep& placed : sweeps) Insert(placed);
-}
-
 bool Pipeline::IsGood(const RegistrationResult& registration) const {
   const TrustOptions& trust = options_.trust;
   return registration.status != RegistrationStatus::kTooFewPatches && registration.matched >= trust.min_patches &&
@@ -120,27 +109,19 @@ bool Pipeline::IsGood(const RegistrationResult& registration) const {
          registration.normalised_residual <= trust.max_residual && registration.belief.mean.T_map_body.IsFinite();
 }
 
-void Pipeline::Insert(const PlacedSweep& placed) {
-  const double duration_us = placed.motion.duration_s() / kUsToS;
-  const PoseTable poses(placed.first_dt_us, [&](double dt_us) { return placed.motion.At(1.0 + dt_us / duration_us); });
-  const double min2 = options_.patches.min_range_m * options_.patches.min_range_m;
-  const double max2 = options_.patches.max_range_m * options_.patches.max_range_m;
+// False when there was no point to insert.
+bool Pipeline::Insert(const Sweep& sweep, const MotionSegment& motion) {
+  const double duration_us = motion.duration_s() / kUsToS;
+  const TimeSlots slots(FirstPointTime(sweep));
+  const PoseTable poses(slots, [&](double dt_us) { return motion.At(1.0 + dt_us / duration_us); });
   std::vector<Eigen::Vector3f> points;
-  points.reserve(placed.sweep.points.size());
-  for (const SweepPoint& point : placed.sweep.points) {
-    const Eigen::Vector3d p(point.x, point.y, point.z);
-    const double range2 = p.squaredNorm();
-    if (!(range2 >= min2 && range2 <= max2)) continue;  // also NaN
-    points.push_back((poses[PoseTable::Slot(point.dt_us, placed.first_dt_us)] * p).cast<float>());
+  points.reserve(sweep.points.size());
+  for (const SweepPoint& point : sweep.points) {
+    if (!InRange(point, options_.patches)) continue;
+    points.push_back((poses[slots.SlotOf(point.dt_us)] * Eigen::Vector3d(point.x, point.y, point.z)).cast<float>());
   }
-  if (points.empty()) return;
-  map_.Insert(points, placed.motion.to().T_map_body.translation.cast<float>());
-  const bool young = map_.viewpoints().size() <= static_cast<size_t>(options_.trust.young_sweeps);
-  if (young) {
-    young_.push_back(placed);
-  } else {
-    young_.clear();
-  }
+  if (!points.empty()) map_.Insert(points, motion.to().T_map_body.translation.cast<float>());
+  return !points.empty();
 }
 
 RelativeMotion Pipeline::ToRelativeMotion(const MotionHint& hint) const {
@@ -180,14 +161,10 @@ void Pipeline::Reset() {
 }
 
 void Pipeline::SetPose(const Pose3& T_map_body) {
-  belief_ = AtRest(T_map_body, options_.trust);
+  belief_ = AtRest(T_map_body, options_.trust.set_pose_m, options_.trust.set_pose_rad, options_.trust);
   utime_.reset();
-  young_.clear();
 }
 
-void Pipeline::SetMap(SurfelMap map) {
-  map_ = std::move(map);
-  young_.clear();
-}
+void Pipeline::SetMap(SurfelMap map) { map_ = std::move(map); }
 
 }  // namespace lcmslam::octo3d

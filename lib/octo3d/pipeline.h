@@ -10,6 +10,7 @@
 #include "lidar/sweep.h"
 #include "octo3d/motion.h"
 #include "octo3d/options.h"
+#include "octo3d/patches.h"
 #include "octo3d/registration.h"
 #include "octo3d/surfel_map.h"
 
@@ -62,27 +63,18 @@ class Pipeline {
   const Options& options() const { return options_; }
 
  private:
-  struct PlacedSweep {
-    Sweep sweep;
-    int32_t first_dt_us = 0;
-    MotionSegment motion;
-  };
-
-  bool IsStale(const Sweep& sweep);
-  Result Start(const Sweep& sweep);
-  RegistrationResult RegisterSweep(const TimedPatches& patches, const RelativeMotion& hint);
+  Result Start(const Sweep& sweep, const std::vector<Patch>& patches);
+  double BridgeTimeTo(const Sweep& sweep);
   RegistrationResult RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint);
-  void Restraighten(const MotionState& last);
   bool IsGood(const RegistrationResult& registration) const;
-  void Insert(const PlacedSweep& placed);
+  bool Insert(const Sweep& sweep, const MotionSegment& motion);
   RelativeMotion ToRelativeMotion(const MotionHint& hint) const;
   Result MakeResult(SweepStatus status, const RegistrationResult& registration) const;
 
   Options options_;
   SurfelMap map_;
-  std::optional<int64_t> utime_;    // of the last sweep
-  StateBelief belief_;              // at utime_
-  std::vector<PlacedSweep> young_;  // the first sweeps, while the map is young
+  std::optional<int64_t> utime_;  // of the last sweep
+  StateBelief belief_;            // at utime_
 };
 
 }  // namespace lcmslam::octo3d

@@ -40,6 +40,7 @@ class Registrar {
         hint_(hint),
         guess_(guess),
         options_(options),
+        slots_(sweep.first_dt_us),
         associations_(sweep.patches.size()) {}
 
   RegistrationResult Run() {
@@ -81,6 +82,7 @@ class Registrar {
   const MotionSegment& guess_;
   const RegistrationOptions& options_;
 
+  const TimeSlots slots_;
   std::vector<Association> associations_;
   SweepInformation measured_;
   Matrix24 H_ = Matrix24::Zero();
@@ -103,10 +105,8 @@ void Registrar::Predict() {
 }
 
 void Registrar::Linearise() {
-  const PoseTable poses = [&] {
-    const double sweep_us = 1e6 * sweep_.duration_s;
-    return PoseTable(sweep_.first_dt_us, [&](double dt_us) { return result_.motion.At(1.0 + dt_us / sweep_us); });
-  }();
+  const double sweep_us = 1e6 * sweep_.duration_s;
+  const PoseTable poses(slots_, [&](double dt_us) { return result_.motion.At(1.0 + dt_us / sweep_us); });
   const double range_var = map_.options().range_noise_m * map_.options().range_noise_m;
   const double model_var = options_.model_error_m * options_.model_error_m;
   measured_.Clear();
@@ -186,7 +186,7 @@ bool Registrar::Step() {
 
   H_.setZero();
   Vector24 b = Vector24::Zero();
-  measured_.AddTo(result_.motion, sweep_.first_dt_us, observability.projection, H_, b);
+  measured_.AddTo(result_.motion, slots_, observability.projection, H_, b);
   AddPriors(H_, b);
   const Vector24 delta = -H_.ldlt().solve(b);
   result_.motion = MotionSegment(Add(result_.motion.from(), delta.head<12>()),

@@ -40,7 +40,7 @@ struct RegistrationResult {
   double normalised_residual = 0.0;  // weighted rms over its prediction: about 1 when all is well
 };
 
-// A sweep's patches with their time: first_dt_us as in PoseTable, duration from the last state to the sweep's end.
+// A sweep's patches with their time: first_dt_us as in TimeSlots, duration from the last state to the sweep's end.
 struct TimedPatches {
   std::span<const Patch> patches;
   int32_t first_dt_us = 0;

@@ -16,6 +16,7 @@ using Key = octomap::OcTreeKey;
 
 constexpr int kTreeDepth = 16;  // OctoMap's
 constexpr int kCentreKey = 1 << (kTreeDepth - 1);
+constexpr double kClippingTilt = 0.3;  // measured on simulated rooms
 
 uint64_t Pack(const Key& key) { return uint64_t{key[0]} | uint64_t{key[1]} << 16 | uint64_t{key[2]} << 32; }
 
@@ -45,6 +46,7 @@ class SurfelMap::Impl {
   std::vector<LeafRecord> Leaves() const;
 
   const MapOptions options;
+  const double leaves_per_m = 1.0 / options.leaf_m;
   SurfelOctree tree;
   BlockIndex index;
   uint32_t revision = 0;
@@ -91,9 +93,9 @@ Eigen::Vector3d SurfelMap::Impl::Centre(const Key& key, int level) const {
 
 bool SurfelMap::Impl::ToKey(const Eigen::Vector3d& p, Key& key) const {
   for (int axis = 0; axis < 3; ++axis) {
-    const double cell = std::floor(p[axis] / options.leaf_m) + kCentreKey;
+    const double cell = p[axis] * leaves_per_m + kCentreKey;
     if (!(cell >= 0.0 && cell < 2.0 * kCentreKey)) return false;  // also NaN
-    key[axis] = static_cast<uint16_t>(cell);
+    key[axis] = static_cast<uint16_t>(static_cast<int>(cell));    // not negative, so this is the floor
   }
   return true;
 }
@@ -220,11 +222,15 @@ void SurfelMap::Impl::Refit(SurfelNode* node, const Key& key, int level) const {
       }
     }
   }
+  const double extent_var = std::max(fit.variances[1], 1e-12);
+  // The faces cut a slanting plane off together with one side of its noise: a small cell tilts, whatever its count.
+  const double tilt_m = kClippingTilt * options.range_noise_m * options.range_noise_m / std::sqrt(extent_var);
   CellPlane& plane = node->cell().plane;
   plane.mean = (fit.mean + Centre(key, level)).cast<float>();
   plane.normal = fit.normal.cast<float>();
   plane.thickness_var = static_cast<float>(fit.variances[0]);
-  plane.extent_var = static_cast<float>(fit.variances[1]);
+  plane.height_var = static_cast<float>(fit.variances[0] / statistics.count + tilt_m * tilt_m);
+  plane.per_extent = static_cast<float>(1.0 / extent_var);
   plane.count = static_cast<float>(node->cell().statistics.count);
   plane.planar = IsPlanar(statistics, fit);
 }
@@ -243,9 +249,8 @@ void SurfelMap::Impl::FindOnPath(const Key& key, const Eigen::Vector3d& p, doubl
   for (int level = block_level(); node != nullptr; --level) {
     const CellPlane& plane = node->cell().plane;
     if (plane.planar) {
-      // Height of a fitted plane at distance d from its mean: var = thickness / n (1 + d^2 / extent).
       const Eigen::Vector3d mean = plane.mean.cast<double>();
-      const double variance = plane.thickness_var / plane.count * (1.0 + (p - mean).squaredNorm() / plane.extent_var);
+      const double variance = plane.height_var * (1.0 + (p - mean).squaredNorm() * plane.per_extent);
       const double model_error = options.curvature_per_m * Edge(level) * Edge(level);
       const double score = variance + model_error * model_error;
       if (score < best_score) {
@@ -286,7 +291,7 @@ PlaneMatch SurfelMap::Impl::FindNear(const Eigen::Vector3d& p, int level) const 
     const double distance2 = (plane.mean.cast<double>() - p).squaredNorm();
     if (distance2 >= nearest2) return;
     nearest2 = distance2;
-    nearest = {true, plane.mean.cast<double>(), plane.normal.cast<double>(), plane.thickness_var / plane.count};
+    nearest = {true, plane.mean.cast<double>(), plane.normal.cast<double>(), plane.height_var};
   };
   const int step = 1 << level;
   for (int i = 0; i < 27; ++i) {

@@ -17,7 +17,8 @@ struct CellPlane {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float thickness_var = 0.0F;  // variance across the plane
-  float extent_var = 0.0F;     // the smaller variance along the plane
+  float height_var = 0.0F;     // of the plane at its mean; at distance d: height_var (1 + d^2 per_extent)
+  float per_extent = 0.0F;     // 1 / the smaller variance along the plane
   float count = 0.0F;          // points at the last fit; 0: never fitted
   bool planar = false;
 

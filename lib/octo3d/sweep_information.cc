@@ -1,11 +1,9 @@
 #include "octo3d/sweep_information.h"
 
-#include "lidar/pose_table.h"
-
 namespace lcmslam::octo3d {
 
 namespace {
-constexpr int kSlotsPerBin = PoseTable::kEntries / SweepInformation::kBins;
+constexpr int kSlotsPerBin = TimeSlots::kSlots / SweepInformation::kBins;
 }
 
 void SweepInformation::Add(int slot, const Vector6& J, double residual, double weight) {
@@ -36,12 +34,12 @@ Matrix6 SweepInformation::Total() const {
   return H;
 }
 
-void SweepInformation::AddTo(const MotionSegment& motion, int32_t first_dt_us, const Matrix6& projection,
+void SweepInformation::AddTo(const MotionSegment& motion, const TimeSlots& slots, const Matrix6& projection,
                              Eigen::Matrix<double, 24, 24>& H, Eigen::Matrix<double, 24, 1>& b) const {
   for (int i = 0; i < kBins; ++i) {
     if (!bins_[i].used) continue;
     const double middle_slot = (i + 0.5) * kSlotsPerBin - 0.5;
-    const double dt_us = first_dt_us >= 0 ? 0.0 : first_dt_us * (1.0 - (middle_slot + 0.5) / PoseTable::kEntries);
+    const double dt_us = slots.MiddleUs(middle_slot);
     const Eigen::Vector4d h = motion.Influence(1.0 + 1e-6 * dt_us / motion.duration_s());
     const Matrix6 H_bin = projection * bins_[i].Full() * projection.transpose();
     const Vector6 b_bin = projection * Eigen::Map<const Vector6>(bins_[i].b.data());

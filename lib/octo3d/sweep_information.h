@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 #include <Eigen/Core>
 
+#include "lidar/pose_table.h"
 #include "octo3d/motion.h"
 
 namespace lcmslam::octo3d {
@@ -17,14 +17,14 @@ class SweepInformation {
   static constexpr int kBins = 32;
 
   void Clear() { bins_.fill(Bin{}); }
-  // slot: of the PoseTable.
+  // slot: of TimeSlots.
   void Add(int slot, const Vector6& J, double residual, double weight);
 
   // The information about the sweep moved as a rigid whole.
   Matrix6 Total() const;
 
   // Adds to H and b (states from, to: 12 + 12), after projecting every bin by P: P H P, P b.
-  void AddTo(const MotionSegment& motion, int32_t first_dt_us, const Matrix6& projection,
+  void AddTo(const MotionSegment& motion, const TimeSlots& slots, const Matrix6& projection,
              Eigen::Matrix<double, 24, 24>& H, Eigen::Matrix<double, 24, 1>& b) const;
 
  private:
