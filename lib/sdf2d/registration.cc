@@ -44,6 +44,12 @@ struct Linearization {
   int matched = 0;
   int inliers = 0;
 
+  // What the scan says of the velocity counts as `weight` scans.
+  void WeighDistortion(double weight) {
+    for (Matrix3d* m : {&dt_a_a, &dt2_a_a}) *m *= weight;
+    dt_a_r *= weight;
+  }
+
   // Forgets what the scan says along the directions that `keep` projects away.
   void Project(const Matrix3d& keep) {
     for (Matrix3d* m : {&a_a, &dt_a_a, &dt2_a_a}) *m = (keep.transpose() * *m * keep).eval();
@@ -189,6 +195,7 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
     }
     Linearization used = best;
     if (!result.unobservable.isZero()) used.Project(Matrix3d::Identity() - result.unobservable);
+    used.WeighDistortion(options.within_scan);
     H = prior;
     H.topLeftCorner<3, 3>() += used.a_a;
     H.topRightCorner<3, 3>() += used.dt_a_a;
