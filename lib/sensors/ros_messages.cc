@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -58,9 +57,8 @@ RosLaserScan DecodeRosLaserScan(std::span<const uint8_t> data) {
   reader.Get<float>();  // scan_time
   scan.range_min_m = reader.Get<float>();
   scan.range_max_m = reader.Get<float>();
-  const auto ranges = reader.GetSized(sizeof(float));
-  scan.ranges_m.resize(ranges.size() / sizeof(float));
-  std::memcpy(scan.ranges_m.data(), ranges.data(), ranges.size());
+  for (ByteReader ranges(reader.GetSized(sizeof(float))); !ranges.empty();)
+    scan.ranges_m.push_back(ranges.Get<float>());
   reader.GetSized(sizeof(float));  // intensities
   RequireEmpty(reader);
   return scan;
