@@ -64,7 +64,6 @@ std::string RegistrationOptions::Validate() const {
       .Demand(inlier_sigmas >= huber_sigmas, "inlier_sigmas", "must be >= huber_sigmas")
       .Positive("map_sigma_m", map_sigma_m)
       .Fraction("min_cos_incidence", min_cos_incidence)
-      .Fraction("within_scan", within_scan)
       .Positive("stop_sigmas", stop_sigmas)
       .Fraction("min_eigenvalue", min_eigenvalue)
       .Demand(min_points >= 3, "min_points", "must be >= 3")

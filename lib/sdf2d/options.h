@@ -40,9 +40,6 @@ struct RegistrationOptions {
   double inlier_sigmas = 3.0;      // residuals below count as inliers
   double map_sigma_m = 0.003;      // m; the map's own error, added to every beam's
   double min_cos_incidence = 0.3;  // grazing beams weigh no more than this one
-  // How far the distortion within one scan may speak for the velocity, 0: not at all (the velocity then comes from the
-  // poses), 1: as if beams erred independently. They do not: in clutter, errors of the map pass for velocity.
-  double within_scan = 0.0;
   double stop_sigmas = 0.1;       // stop when a step is shorter than this part of the pose's own sigma
   double min_eigenvalue = 0.006;  // a direction seen by less than this part of the beams is unobservable
   int min_points = 20;

@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// sum w a a^T and sum w a phi of one power of dt.
+// sum w a a^T and sum w a phi, with a = d phi / d pose.
 struct NormalSums {
   double xx = 0.0, xy = 0.0, xt = 0.0, yy = 0.0, yt = 0.0, tt = 0.0;
   double x = 0.0, y = 0.0, t = 0.0;
@@ -29,41 +29,29 @@ struct NormalSums {
   Vector3d Vector() const { return {x, y, t}; }
 };
 
-// The quadratic model of the scan's cost around a state. With a = d phi / d pose, the derivative by the twist is dt a,
-// so three 3x3 sums hold the whole 6x6 matrix.
+// The quadratic model of the scan's cost around a pose.
 struct Linearization {
-  Matrix3d a_a = Matrix3d::Zero();      // sum w a a^T
-  Matrix3d dt_a_a = Matrix3d::Zero();   // sum w dt a a^T
-  Matrix3d dt2_a_a = Matrix3d::Zero();  // sum w dt^2 a a^T
-  Vector3d a_r = Vector3d::Zero();      // sum w a phi
-  Vector3d dt_a_r = Vector3d::Zero();   // sum w dt a phi
-  double cost = 0.0;                    // points without a surface cost as much as the worst inlier
+  Matrix3d a_a = Matrix3d::Zero();  // sum w a a^T
+  Vector3d a_r = Vector3d::Zero();  // sum w a phi
+  double cost = 0.0;                // points without a surface cost as much as the worst inlier
   double inlier_sum_m2 = 0.0;
   double sum_weights = 0.0;
   double sum_lever_m2 = 0.0;
   int matched = 0;
   int inliers = 0;
 
-  // What the scan says of the velocity counts as `weight` scans.
-  void WeighDistortion(double weight) {
-    for (Matrix3d* m : {&dt_a_a, &dt2_a_a}) *m *= weight;
-    dt_a_r *= weight;
-  }
-
   // Forgets what the scan says along the directions that `keep` projects away.
   void Project(const Matrix3d& keep) {
-    for (Matrix3d* m : {&a_a, &dt_a_a, &dt2_a_a}) *m = (keep.transpose() * *m * keep).eval();
-    for (Vector3d* v : {&a_r, &dt_a_r}) *v = (keep.transpose() * *v).eval();
+    a_a = (keep.transpose() * a_a * keep).eval();
+    a_r = (keep.transpose() * a_r).eval();
   }
 };
 
 struct Problem {
   const SdfMap& map;
-  std::span<const ScanPoint> points;
   const std::vector<double>& range_variance;
   Vector2d origin_body;
   const RegistrationOptions& options;
-  bool has_times;
 };
 
 Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::span<const Vector2d> p_body) {
@@ -77,7 +65,7 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
   const Vector2d origin_map = T_map_body * problem.origin_body;
   SdfReader reader(problem.map);
   Linearization sum;
-  NormalSums by_dt[3];
+  NormalSums sums;
   for (size_t i = 0; i < p_body.size(); ++i) {
     const Vector2d& p = p_body[i];
     const Vector2d p_map = T_map_body * p;
@@ -103,12 +91,7 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
     }
     const double gx = c * g.x() + s * g.y(), gy = c * g.y() - s * g.x();  // in the body frame
     const double gt = p.x() * gy - p.y() * gx;
-    by_dt[0].Add(w, r, gx, gy, gt);
-    if (problem.has_times) {
-      const double dt = problem.points[i].dt_s;
-      by_dt[1].Add(w * dt, r, gx, gy, gt);
-      by_dt[2].Add(w * dt * dt, r, gx, gy, gt);
-    }
+    sums.Add(w, r, gx, gy, gt);
     sum.sum_weights += w;
     sum.sum_lever_m2 += w * p.squaredNorm();
     ++sum.matched;
@@ -117,11 +100,8 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
       sum.inlier_sum_m2 += r * r;
     }
   }
-  sum.a_a = by_dt[0].Matrix();
-  sum.a_r = by_dt[0].Vector();
-  sum.dt_a_a = by_dt[1].Matrix();
-  sum.dt_a_r = by_dt[1].Vector();
-  sum.dt2_a_a = by_dt[2].Matrix();
+  sum.a_a = sums.Matrix();
+  sum.a_r = sums.Vector();
   return sum;
 }
 
@@ -154,19 +134,18 @@ std::array<bool, 3> AlignResult::UnobservableAxes() const {
 AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Vector2d& origin_body,
                   const NoiseModel& noise, const MotionState& prediction, const RegistrationOptions& options) {
   std::vector<double> range_variance(points.size());
-  bool has_times = false;
   for (size_t i = 0; i < points.size(); ++i) {
     const double sigma = noise.Sigma(points[i].range_m);
     range_variance[i] = sigma * sigma;
-    has_times = has_times || points[i].dt_s != 0.0;
   }
-  const Problem problem{map, points, range_variance, origin_body, options, has_times};
+  const Problem problem{map, range_variance, origin_body, options};
   const Matrix6d prior = prediction.covariance.ldlt().solve(Matrix6d::Identity());
 
   AlignResult result;
   result.points = static_cast<int>(points.size());
   result.state = prediction;
   std::vector<Vector2d> p_body;
+  Deskew(points, prediction.twist_body, &p_body);
   Vector6d offset = Vector6d::Zero();  // from the prediction
   Linearization best;
   Vector6d best_offset = offset;
@@ -179,7 +158,6 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
 
   for (result.iterations = 0; result.iterations < options.max_iterations; ++result.iterations) {
     const MotionState state = state_at(offset);
-    if (has_times || result.iterations == 0) Deskew(points, state.twist_body, &p_body);
     Linearization scan = Linearize(problem, state.T_map_body, p_body);
     const double cost = scan.cost + offset.dot(prior * offset);
     if (cost > best_cost * (1.0 + 1e-9)) {  // worse: shorter steps from the best state so far
@@ -195,15 +173,10 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
     }
     Linearization used = best;
     if (!result.unobservable.isZero()) used.Project(Matrix3d::Identity() - result.unobservable);
-    used.WeighDistortion(options.within_scan);
     H = prior;
     H.topLeftCorner<3, 3>() += used.a_a;
-    H.topRightCorner<3, 3>() += used.dt_a_a;
-    H.bottomLeftCorner<3, 3>() += used.dt_a_a;
-    H.bottomRightCorner<3, 3>() += used.dt2_a_a;
     Vector6d gradient = prior * best_offset;
     gradient.head<3>() += used.a_r;
-    gradient.tail<3>() += used.dt_a_r;
     Matrix6d damped = H;
     damped.diagonal() *= 1.0 + damping;
     const Vector6d step = -damped.ldlt().solve(gradient);
