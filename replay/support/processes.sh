@@ -7,7 +7,8 @@ declare -A pid_of=() log_of=()
 start() {
   local name=$1 log=$2
   shift 2
-  "$@" >"$log" 2>&1 &
+  : >"$log"
+  "$@" >>"$log" 2>&1 &
   pid_of[$name]=$!
   log_of[$name]=$log
 }
