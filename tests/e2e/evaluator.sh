@@ -5,7 +5,6 @@ set -euo pipefail
 
 main() {
   need_data jarvis/jarvis_circular_path_fast.bag
-  require_multicast "$0" "$@"
   "$bin/sensor-bridge" import rosbag "$data/jarvis/jarvis_circular_path_fast.bag" --log-out input.lcm >import.log 2>&1
   shipped_configuration
   recording

@@ -1,11 +1,12 @@
-# Sourced first by every test that is a script. Changes into an empty folder, `work`, that is removed at the end.
-# A test goes on after a failed check and ends with 1; with 77 (skipped) where its data is absent.
+# Sourced first by every test that is a script. Sees to a multicast route and changes into an empty folder, `work`, that is
+# removed at the end. A test goes on after a failed check and ends with 1; with 77 (skipped) where its data is absent.
 # shellcheck shell=bash
 # shellcheck disable=SC2034  # used by those who source this
 
 . "$(dirname "${BASH_SOURCE[0]}")/../../replay/support/common.sh"
 . "$root/replay/support/network.sh"
 . "$root/replay/support/processes.sh"
+require_multicast "$0" "$@"
 
 data=${LCMSLAM_DATA:-$root/../shared/data}
 work=$(mktemp -d)
