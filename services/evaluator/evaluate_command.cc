@@ -130,6 +130,9 @@ ExitCode EvaluateRecording(const EvaluateArguments& arguments, const EvaluatorOp
                                       *message.mutable_relation_file()),
                  message);
   }
+  if (result::Timing timing; sources.timing.Report(sources.estimate.channel, timing)) {
+    *message.mutable_timing() = std::move(timing);
+  }
   const ExitCode code = Report(message, options, arguments.json);
   if (!sources.log_damage.empty()) throw CommandError(ExitCode::kBadInput, sources.log_damage);
   return code;

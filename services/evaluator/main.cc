@@ -3,13 +3,18 @@
 #include "common/command_line.h"
 #include "evaluator/evaluate_command.h"
 #include "evaluator/evaluator.pb.h"
+#include "evaluator/report/report_command.h"
 
 int main(int argc, char** argv) {
+  using namespace lcmslam;
   CLI::App app("Judges estimated trajectories by a reference: files, a log, or live on the bus", "evaluator");
-  lcmslam::EvaluateArguments arguments;
-  lcmslam::config::Evaluator flags;
-  for (int i = 0; i < argc; ++i) arguments.command += (i == 0 ? "" : " ") + std::string(i == 0 ? "evaluator" : argv[i]);
-  lcmslam::AddServiceOptions(app, arguments.service);
-  lcmslam::AddEvaluateOptions(app, arguments, flags);
-  return lcmslam::RunCommandLine(app, argc, argv, [&] { return lcmslam::RunEvaluate(arguments, flags); });
+  EvaluateArguments arguments;
+  config::Evaluator flags;
+  arguments.command = "evaluator";
+  for (int i = 1; i < argc; ++i) arguments.command += std::string(" ") + argv[i];
+  std::function<ExitCode()> command = [&] { return RunEvaluate(arguments, flags); };
+  AddServiceOptions(app, arguments.service);
+  AddEvaluateOptions(app, arguments, flags);
+  report::AddReportCommand(app, arguments.command, command);
+  return RunCommandLine(app, argc, argv, [&] { return command(); });
 }

@@ -61,6 +61,7 @@ class ChannelPoses {
       throw CommandError(ExitCode::kUsage, fmt::format("{}: '{}' matches {} and {}", log_.string(), pattern_, channel,
                                                        std::next(by_channel_.begin())->first));
     }
+    source.channel = channel;
     source.name = fmt::format("{} in {}", channel, log_.string());
     return std::move(source);
   }
@@ -83,7 +84,7 @@ bool NamesFile(const std::string& name) {
 PoseSource ReadPoseFile(const std::filesystem::path& path, const ReadOptions& options) {
   TrajectoryFile file = ReadTrajectory(path, options);
   if (!file.error.empty()) throw CommandError(ExitCode::kBadInput, file.error);
-  return {.name = path.string(), .trajectory = std::move(file.trajectory)};
+  return {.name = path.string(), .channel = "", .trajectory = std::move(file.trajectory)};
 }
 
 PoseSources ReadPoseFiles(const std::filesystem::path& estimate, const std::filesystem::path& reference,
@@ -98,12 +99,13 @@ PoseSources ReadPoseChannels(const std::filesystem::path& log, const std::string
   LogReader reader(log);
   Progress progress(reader.size_bytes(), quiet);
   ChannelPoses estimate(log, estimate_pattern), reference(log, reference_pattern);
+  PoseSources sources;
   for (Event event; reader.Next(event);) {
+    sources.timing.Add(event);
     estimate.Add(event);
     reference.Add(event);
     progress.Show(reader.position_bytes());
   }
-  PoseSources sources;
   if (reader.damaged_bytes() > 0) sources.log_damage = reader.DamageReport();
   if (!estimate_pattern.empty()) sources.estimate = estimate.Take();
   if (!reference_pattern.empty()) sources.reference = reference.Take();

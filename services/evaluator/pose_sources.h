@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "evaluator/timing.h"
 #include "trajectory/read.h"
 #include "trajectory/relations.h"
 
@@ -11,7 +12,8 @@ namespace lcmslam {
 
 // A trajectory and where it came from.
 struct PoseSource {
-  std::string name;  // file, or "CHANNEL in LOG"
+  std::string name;          // file, or "CHANNEL in LOG"
+  std::string channel = {};  // "" for a file
   Trajectory trajectory;
   int64_t refused = 0;       // malformed messages
   int64_t out_of_order = 0;  // poses left out because their stamp repeats or steps back by up to a second
@@ -25,6 +27,7 @@ bool NamesFile(const std::string& name);
 PoseSource ReadPoseFile(const std::filesystem::path& path, const ReadOptions& options);
 struct PoseSources {
   PoseSource estimate, reference;
+  TimingCollector timing = {};
   std::string log_damage = {};  // "" or what is wrong with the log
 };
 // Two files, read at the same time.

@@ -11,20 +11,6 @@ namespace {
 
 int32_t Count(int64_t count) { return static_cast<int32_t>(std::min<int64_t>(count, INT32_MAX)); }
 
-result::Summary ToMessage(const Summary& summary, double unit = 1.0) {
-  result::Summary message;
-  message.set_count(Count(summary.count));
-  if (summary.count == 0) return message;
-  message.set_mean(unit * summary.mean);
-  message.set_rmse(unit * summary.rmse);
-  message.set_median(unit * summary.median);
-  message.set_sd(unit * summary.sd);
-  message.set_p95(unit * summary.p95);
-  message.set_min(unit * summary.min);
-  message.set_max(unit * summary.max);
-  return message;
-}
-
 result::PoseError ToMessage(const ErrorSummary& error) {
   result::PoseError message;
   *message.mutable_translation_m() = ToMessage(error.translation_m);
@@ -102,6 +88,20 @@ bool AddThreshold(const char* name, std::optional<double> limit, double value, b
 }
 
 }  // namespace
+
+result::Summary ToMessage(const Summary& summary, double unit) {
+  result::Summary message;
+  message.set_count(Count(summary.count));
+  if (summary.count == 0) return message;
+  message.set_mean(unit * summary.mean);
+  message.set_rmse(unit * summary.rmse);
+  message.set_median(unit * summary.median);
+  message.set_sd(unit * summary.sd);
+  message.set_p95(unit * summary.p95);
+  message.set_min(unit * summary.min);
+  message.set_max(unit * summary.max);
+  return message;
+}
 
 void AddSource(const PoseSource& source, result::Evaluation::Source& message) {
   message.set_name(source.name);

@@ -9,6 +9,7 @@
 namespace lcmslam {
 
 // Values of lib/trajectory as the message that becomes JSON and table. NaN and infinity are left out.
+result::Summary ToMessage(const Summary& summary, double unit = 1.0);
 void AddSource(const PoseSource& source, result::Evaluation::Source& message);
 // Association, alignment, calibration, all errors.
 void AddEvaluation(const Evaluation& evaluation, const EvaluationOptions& options, result::Evaluation& message);

@@ -73,9 +73,9 @@ void PrintCalibration(Text& text, const Message::Calibration& c) {
   }
 }
 
-void PrintHead(Text& text) {
-  Print(text, "\n{:<20} {:<6}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>9}\n", "error", "unit", "mean", "RMSE", "median",
-        "SD", "p95", "max", "n");
+void PrintHead(Text& text, const char* what) {
+  Print(text, "\n{:<20} {:<6}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>9}\n", what, "unit", "mean", "RMSE", "median", "SD",
+        "p95", "max", "n");
 }
 
 void PrintSummary(Text& text, const std::string& name, const char* unit, const Summary& s, int digits) {
@@ -110,6 +110,16 @@ void PrintRelations(Text& text, const Message::Relations& r) {
   print("rotation, squared", "rad^2", r.squared_rotation_rad2());
 }
 
+void PrintTiming(Text& text, const result::Timing& timing) {
+  PrintHead(text, "timing");
+  if (timing.has_step_ms()) PrintSummary(text, "one scan", "ms", timing.step_ms(), 3);
+  for (const auto& stage : timing.stages()) PrintSummary(text, "  " + stage.name(), "ms", stage.ms(), 3);
+  if (timing.has_latency_p50_ms()) {
+    Print(text, "latency: median {:.3f} ms, largest p99 of a second {:.3f} ms\n", timing.latency_p50_ms(),
+          timing.latency_p99_ms());
+  }
+}
+
 void PrintThresholds(Text& text, const Message& m) {
   if (m.thresholds_size() > 0) Print(text, "\n");
   for (const auto& t : m.thresholds()) {
@@ -129,7 +139,7 @@ std::string FormatTable(const Message& m) {
   if (m.has_calibration()) PrintCalibration(text, m.calibration());
   for (const std::string& note : m.notes()) Print(text, "note         {}\n", note);
   if (m.has_absolute()) {
-    PrintHead(text);
+    PrintHead(text, "error");
     PrintError(text, "absolute", m.absolute());
     for (const auto& relative : m.relative()) {
       const std::string step =
@@ -146,6 +156,7 @@ std::string FormatTable(const Message& m) {
           m.drift().rotation_rad_per_m());
   }
   if (m.has_relations()) PrintRelations(text, m.relations());
+  if (m.has_timing()) PrintTiming(text, m.timing());
   PrintThresholds(text, m);
   return fmt::to_string(text);
 }

@@ -1,0 +1,178 @@
+#include "evaluator/report/study.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "bus/errors.h"
+
+namespace lcmslam::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMetricsSuffix = "_metrics.json";
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void FailInput(const std::string& line) { throw CommandError(ExitCode::kBadInput, line); }
+
+result::Evaluation ReadMetrics(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  google::protobuf::util::JsonParseOptions options;
+  options.ignore_unknown_fields = true;  // of later versions
+  result::Evaluation metrics;
+  const auto status = google::protobuf::util::JsonStringToMessage(text.str(), &metrics, options);
+  if (!file || !status.ok()) FailInput(fmt::format("{}: not the result of an evaluation", path.string()));
+  return metrics;
+}
+
+fs::path IfThere(const fs::path& path) { return fs::is_regular_file(path) ? path : fs::path(); }
+
+std::vector<fs::path> SortedEntries(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> entries;
+  for (const auto& entry : fs::directory_iterator(folder, error)) entries.push_back(entry.path());
+  if (error) FailInput(fmt::format("{}: {}", folder.string(), error.message()));
+  std::ranges::sort(entries);
+  return entries;
+}
+
+// "" for other files.
+std::string SystemOfMetrics(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.ends_with(kMetricsSuffix) ? name.substr(0, name.size() - kMetricsSuffix.size()) : "";
+}
+
+// What the recording tools call it, in order of preference.
+fs::path FindReference(const fs::path& folder) {
+  for (const char* name : {"reference_tum.txt", "ground_truth_tum.txt", "ground_truth_000_tum.txt"}) {
+    if (fs::is_regular_file(folder / name)) return folder / name;
+  }
+  return {};
+}
+
+// No runs when the folder is no episode.
+Episode ReadEpisode(const fs::path& folder, const std::string& name) {
+  Episode episode{.name = name, .folder = folder, .reference = FindReference(folder), .runs = {}};
+  for (const fs::path& path : SortedEntries(folder)) {
+    const std::string system = SystemOfMetrics(path);
+    if (system.empty()) continue;
+    Run& run = episode.runs[system];
+    run.has_metrics = true;
+    run.metrics = ReadMetrics(path);
+    run.metrics_file = path;
+  }
+  return episode;
+}
+
+void CollectEpisodes(const fs::path& folder, const std::string& name, std::vector<Episode>& episodes) {
+  Episode episode = ReadEpisode(folder, name);
+  if (!episode.runs.empty()) {
+    episodes.push_back(std::move(episode));
+    return;
+  }
+  for (const fs::path& path : SortedEntries(folder)) {
+    if (!fs::is_directory(path) || fs::is_symlink(path)) continue;  // `latest` points to one of the others
+    const std::string file_name = path.filename().string();
+    CollectEpisodes(path, name.empty() ? file_name : name + "/" + file_name, episodes);
+  }
+}
+
+std::string NameOf(const fs::path& folder) {
+  const fs::path normal = fs::weakly_canonical(folder);
+  return normal.filename().string();
+}
+
+std::vector<Group> ReadGroups(const std::vector<fs::path>& folders) {
+  Group singles{.name = folders.size() == 1 ? "Run" : "Runs", .episodes = {}};
+  std::vector<Group> groups;
+  for (const fs::path& folder : folders) {
+    Episode single = ReadEpisode(folder, NameOf(folder));
+    if (!single.runs.empty()) {
+      singles.episodes.push_back(std::move(single));
+      continue;
+    }
+    Group group{.name = NameOf(folder), .episodes = {}};
+    CollectEpisodes(folder, "", group.episodes);
+    if (group.episodes.empty()) FailInput(fmt::format("{}: no *{} in it or below", folder.string(), kMetricsSuffix));
+    groups.push_back(std::move(group));
+  }
+  if (!singles.episodes.empty()) groups.insert(groups.begin(), std::move(singles));
+  return groups;
+}
+
+// Our systems first, each before its baseline.
+std::vector<std::string> OrderedSystems(const std::vector<Group>& groups) {
+  constexpr std::array<std::string_view, 4> kFirst = {"sdf2d-slam", "occupancy2d-slam", "octo3d-slam", "cloud3d-slam"};
+  std::set<std::string> all;
+  for (const Group& group : groups) {
+    for (const Episode& episode : group.episodes) {
+      for (const auto& [system, run] : episode.runs) all.insert(system);
+    }
+  }
+  std::vector<std::string> ordered(all.begin(), all.end());
+  std::ranges::stable_sort(
+      ordered, {}, [&](const std::string& system) { return std::ranges::find(kFirst, system) - kFirst.begin(); });
+  return ordered;
+}
+
+std::string WhyFailed(const Run& run, const FailureRule& rule) {
+  if (!run.has_metrics) return "no result";
+  const double mean_m = ErrorOf(run).translation_m().has_mean() ? ErrorOf(run).translation_m().mean() : kInfinity;
+  if (!std::isfinite(mean_m)) return "nothing matched";
+  if (mean_m > rule.max_mean_m) return fmt::format("mean error {:.3f} m", mean_m);
+  const auto& association = run.metrics.association();
+  if (run.metrics.has_absolute() && association.coverage() < rule.min_coverage) {
+    return fmt::format("coverage {:.1f} %", 100.0 * association.coverage());
+  }
+  return "";
+}
+
+void CompleteRun(const Episode& episode, const std::string& system, const FailureRule& rule, Run& run) {
+  run.trajectory = IfThere(episode.folder / (system + "_tum.txt"));
+  run.map = IfThere(episode.folder / (system + "_map.pgm"));
+  run.config = IfThere(episode.folder / (system + ".pbtxt"));
+  run.failure = WhyFailed(run, rule);
+}
+
+}  // namespace
+
+std::string FailureRule::Validate() const {
+  if (!(max_mean_m > 0.0)) return "failure: must be positive";
+  if (!(min_coverage >= 0.0 && min_coverage <= 1.0)) return "min_coverage: must be in [0, 1]";
+  return "";
+}
+
+Study LoadStudy(const std::vector<fs::path>& folders, const FailureRule& rule) {
+  Study study;
+  study.failure_rule = rule;
+  study.groups = ReadGroups(folders);
+  study.systems = OrderedSystems(study.groups);
+  for (Group& group : study.groups) {
+    for (Episode& episode : group.episodes) {
+      for (const std::string& system : study.systems) CompleteRun(episode, system, rule, episode.runs[system]);
+    }
+  }
+  return study;
+}
+
+const result::PoseError& ErrorOf(const Run& run) {
+  return run.metrics.has_absolute() ? run.metrics.absolute() : run.metrics.relations().error();
+}
+
+double TranslationError(const Run& run) {
+  return run.failure.empty() ? ErrorOf(run).translation_m().mean() : kInfinity;
+}
+
+double RotationError(const Run& run) { return run.failure.empty() ? ErrorOf(run).rotation_rad().mean() : kInfinity; }
+
+}  // namespace lcmslam::report

@@ -1,0 +1,88 @@
+#include "evaluator/report/table.h"
+
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "bus/errors.h"
+
+namespace lcmslam::report {
+namespace {
+
+std::string Row(const std::vector<std::string>& cells, const char* tag, size_t text_columns) {
+  std::string html = "<tr>";
+  for (size_t i = 0; i < cells.size(); ++i) {
+    html += fmt::format("<{}{}>{}</{}>", tag, i < text_columns ? "" : " class=\"number\"", EscapeHtml(cells[i]), tag);
+  }
+  return html + "</tr>\n";
+}
+
+// Quoted where it holds what means something in CSV.
+std::string CsvCell(const std::string& cell) {
+  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+  std::string quoted = "\"";
+  for (const char c : cell) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string CsvRow(const std::vector<std::string>& cells) {
+  std::string line;
+  for (size_t i = 0; i < cells.size(); ++i) line += (i == 0 ? "" : ",") + CsvCell(cells[i]);
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string ToHtml(const Table& table) {
+  std::string html = "<div class=\"scroll\"><table>\n";
+  html += fmt::format("<caption>{}</caption>\n", EscapeHtml(table.caption));
+  html += "<thead>" + Row(table.header, "th", table.text_columns) + "</thead>\n<tbody>\n";
+  for (const auto& row : table.rows) html += Row(row, "td", table.text_columns);
+  return html + "</tbody></table></div>\n";
+}
+
+std::string ToCsv(const Table& table) {
+  std::string csv = CsvRow(table.header);
+  for (const auto& row : table.rows) csv += CsvRow(row);
+  return csv;
+}
+
+std::string EscapeHtml(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+void WriteFile(const std::filesystem::path& path, std::string_view bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file << bytes;
+  if (!file.flush()) throw CommandError(ExitCode::kRuntime, fmt::format("{}: cannot be written", path.string()));
+}
+
+std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream bytes;
+  bytes << file.rdbuf();
+  if (!file) throw CommandError(ExitCode::kBadInput, fmt::format("{}: cannot be read", path.string()));
+  return bytes.str();
+}
+
+}  // namespace lcmslam::report

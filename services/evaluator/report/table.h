@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lcmslam::report {
+
+// A table of text; numbers stand in it as they are shown, units in the header.
+struct Table {
+  std::string name;     // of the CSV file
+  std::string caption;  // what stands above it, with units and what was counted
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+  size_t text_columns = 1;  // the first ones are text, the others numbers
+};
+
+std::string ToHtml(const Table& table);
+std::string ToCsv(const Table& table);
+
+// & < > " as entities.
+std::string EscapeHtml(std::string_view text);
+
+// Writes a file or throws CommandError (kRuntime).
+void WriteFile(const std::filesystem::path& path, std::string_view bytes);
+// The bytes of a file; CommandError (kBadInput) when it cannot be read.
+std::string ReadFile(const std::filesystem::path& path);
+
+}  // namespace lcmslam::report

@@ -1,0 +1,241 @@
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/errors.h"
+#include "evaluator/report/encodings.h"
+#include "evaluator/report/map_image.h"
+#include "evaluator/report/numbers.h"
+#include "evaluator/report/page.h"
+#include "evaluator/report/study.h"
+#include "evaluator/report/study_tables.h"
+#include "evaluator/result.h"
+#include "trajectory/write.h"
+
+namespace lcmslam::report {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace fs = std::filesystem;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Report : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("lcmslam_report_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static Trajectory Circle(double radius_m) {
+    Trajectory t;
+    for (int k = 0; k <= 100; ++k) {
+      t.push_back(
+          {1'000'000 + k * 100'000, ToPose3(Pose2(radius_m * std::cos(0.05 * k), radius_m * std::sin(0.05 * k), 0.0))});
+    }
+    return t;
+  }
+
+  // What replay leaves of one episode: the estimate is `error_m` too far out.
+  void WriteRun(const std::string& episode, const std::string& system, double error_m, double coverage = 1.0) {
+    const fs::path folder = folder_ / episode;
+    fs::create_directories(folder);
+    ASSERT_EQ(WriteTum(folder / "ground_truth_000_tum.txt", Circle(2.0)), "");
+    ASSERT_EQ(WriteTum(folder / (system + "_tum.txt"), Circle(2.0 + error_m)), "");
+    EvaluationOptions options;
+    options.alignment = AlignmentKind::kNone;
+    result::Evaluation message;
+    message.set_command("evaluator <" + episode + ">");
+    AddEvaluation(Evaluate(Circle(2.0 + error_m), Circle(2.0), options), options, message);
+    message.mutable_association()->set_coverage(coverage);
+    Write(episode + "/" + system + "_metrics.json", ToJson(message));
+    Write(episode + "/" + system + ".pbtxt", "cell_m: 0.05\n");
+    Write(episode + "/" + system + "_map.pgm",
+          "P5\n4 3\n255\n" + std::string("\xcd\xcd\xcd\xcd\xcd\x00\xfe\xcd\xcd\xcd\xcd\xcd", 12));
+    Write(episode + "/" + system + "_map.yaml", "image: x\nresolution: 0.05\n");
+  }
+  void Write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  std::string ReadPage() const { return ReadFile(folder_ / "out.html"); }
+
+  fs::path folder_;
+};
+
+TEST_F(Report, LoadsEpisodesByFolder) {
+  for (const char* episode : {"sim/e1", "sim/e2", "sim/deep/e3"}) {
+    WriteRun(episode, "occupancy2d-slam", 0.02);
+    WriteRun(episode, "sdf2d-slam", 0.01);
+  }
+  WriteRun("single", "sdf2d-slam", 0.01);
+  const Study study = LoadStudy({folder_ / "sim", folder_ / "single"}, {});
+  EXPECT_THAT(study.systems, ElementsAre("sdf2d-slam", "occupancy2d-slam")) << "ours first";
+  ASSERT_EQ(study.groups.size(), 2u);
+  EXPECT_EQ(study.groups[0].episodes[0].name, "single");
+  EXPECT_EQ(study.groups[1].name, "sim");
+  ASSERT_EQ(study.groups[1].episodes.size(), 3u);
+  EXPECT_EQ(study.groups[1].episodes[0].name, "deep/e3");
+  EXPECT_NEAR(TranslationError(study.groups[1].episodes[0].runs.at("sdf2d-slam")), 0.01, 1e-9);
+}
+
+TEST_F(Report, FailuresAreNeverDropped) {
+  WriteRun("e/good", "a", 0.01);
+  WriteRun("e/good", "b", 0.02);
+  WriteRun("e/lost", "a", 0.01);
+  WriteRun("e/lost", "b", 0.7);
+  WriteRun("e/thin", "a", 0.01);
+  WriteRun("e/thin", "b", 0.01, 0.5);
+  WriteRun("e/dead", "a", 0.01);
+  const Study study = LoadStudy({folder_ / "e"}, {.max_mean_m = 0.5, .min_coverage = 0.9});
+  const Group& group = study.groups[0];
+  EXPECT_THAT(TranslationErrors(group, "b"),
+              ElementsAre(kInfinity, ::testing::DoubleNear(0.02, 1e-9), kInfinity, kInfinity));
+  const EpisodeSummary b = SummarizeEpisodes(TranslationErrors(group, "b"));
+  EXPECT_EQ(b.completed, 1);
+  EXPECT_EQ(b.episodes, 4);
+  EXPECT_EQ(b.median, kInfinity);
+  EXPECT_NEAR(b.mean, 0.02, 1e-9);
+  const Table episodes = EpisodesTable(study, group);
+  std::vector<std::string> failures;
+  for (const auto& row : episodes.rows) failures.push_back(row.back());
+  EXPECT_THAT(failures, ElementsAre("", "no result", "", "", "", "mean error 0.700 m", "", "coverage 50.0 %"));
+  const auto comparisons = CompareSystems(study, group);
+  ASSERT_EQ(comparisons.size(), 2u);
+  EXPECT_EQ(comparisons[0].paired.wins_a, 4);
+}
+
+TEST(SummarizeEpisodes, RanksFailuresWorst) {
+  const EpisodeSummary s = SummarizeEpisodes({4.0, 1.0, kInfinity, 2.0, 3.0});
+  EXPECT_EQ(s.median, 3.0);
+  EXPECT_EQ(s.p95, kInfinity);
+  EXPECT_EQ(s.max, kInfinity);
+  EXPECT_EQ(s.mean, 2.5);
+  EXPECT_NEAR(s.sd, std::sqrt(5.0 / 3.0), 1e-12);
+  EXPECT_TRUE(std::isnan(SummarizeEpisodes({}).median));
+  EXPECT_TRUE(std::isnan(SummarizeEpisodes({1.0}).sd));
+}
+
+TEST_F(Report, PageHoldsEverything) {
+  for (int k = 0; k < 8; ++k) {
+    WriteRun("e/" + std::to_string(k), "sdf2d-slam", 0.001 * (k + 1));
+    WriteRun("e/" + std::to_string(k), "occupancy2d-slam", 0.02 + 0.001 * k);
+  }
+  WritePage(LoadStudy({folder_ / "e"}, {}),
+            {.title = "A & B", .command = "evaluator report e", .file = folder_ / "out.html"});
+  const std::string page = ReadPage();
+  EXPECT_THAT(page, HasSubstr("<h1>A &amp; B</h1>"));
+  EXPECT_THAT(page, HasSubstr("smaller in 8 of 8 episodes"));
+  EXPECT_THAT(page, HasSubstr("8 of 8"));
+  EXPECT_THAT(page, HasSubstr("none across gaps of up to 0.3 s"));
+  EXPECT_THAT(page, HasSubstr("evaluator &lt;e/3&gt;"));
+  EXPECT_THAT(page, HasSubstr("cell_m: 0.05"));
+  EXPECT_THAT(page, HasSubstr(Sha256(ReadFile(folder_ / "e/3/sdf2d-slam_metrics.json"))));
+  EXPECT_THAT(page, HasSubstr("<figure id=\"group1_boxes\"><svg"));
+  EXPECT_THAT(page, HasSubstr("<figure id=\"group1_histogram\"><svg"));
+  EXPECT_THAT(page, HasSubstr("<figure id=\"group1_episode1_trajectory\"><svg"));
+  EXPECT_THAT(page, HasSubstr("<figure id=\"group1_episode2_error\"><svg"));
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(https?:|/|\\.)"))) << "needs nothing but itself";
+  for (const char* name :
+       {"group1_boxes.svg", "group1_boxes.pdf", "group1_systems.csv", "group1_episodes.csv", "figures.gp"}) {
+    EXPECT_TRUE(fs::file_size(folder_ / "out_files" / name) > 0) << name;
+  }
+  std::vector<std::string> ids;
+  const std::regex id("[ \n]id=['\"]([^'\"]+)");
+  for (std::sregex_iterator m(page.begin(), page.end(), id), end; m != end; ++m) ids.push_back((*m)[1]);
+  std::ranges::sort(ids);
+  EXPECT_EQ(std::ranges::adjacent_find(ids), ids.end()) << "identifiers are unique";
+}
+
+TEST_F(Report, SameFoldersSamePage) {
+  WriteRun("run", "sdf2d-slam", 0.01);
+  const auto write = [&] {
+    WritePage(LoadStudy({folder_ / "run"}, {}), {.title = "t", .command = "c", .file = folder_ / "out.html"});
+    return ReadPage();
+  };
+  EXPECT_EQ(write(), write());
+}
+
+TEST_F(Report, RunWithoutReferenceOrTrajectoryOrMap) {
+  result::Evaluation message;
+  RelationErrors relations;
+  relations.errors.Add({}, {{0.03, 0.0, 0.0}, Eigen::Quaterniond::Identity()});
+  AddRelations(relations, message);
+  fs::create_directories(folder_ / "run");
+  Write("run/x_metrics.json", ToJson(message));
+  WritePage(LoadStudy({folder_ / "run"}, {}), {.title = "t", .command = "c", .file = folder_ / "out.html"});
+  EXPECT_THAT(ReadPage(), HasSubstr("x: mean error 30.0 mm."));
+  EXPECT_THAT(ReadPage(), HasSubstr("<td>relations</td>"));
+}
+
+TEST_F(Report, BadInputIsNamed) {
+  const auto error_of = [&](const fs::path& path) {
+    try {
+      LoadStudy({path}, {});
+    } catch (const CommandError& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(error_of(folder_ / "none"), HasSubstr("none: No such file or directory"));
+  EXPECT_THAT(error_of(folder_), HasSubstr("no *_metrics.json in it or below"));
+  fs::create_directories(folder_ / "bad");
+  Write("bad/x_metrics.json", "{ \"absolute\": 7 }");
+  EXPECT_THAT(error_of(folder_ / "bad"), HasSubstr("x_metrics.json: not the result of an evaluation"));
+  WriteRun("bad", "x", 0.1);
+  Write("bad/x_tum.txt", "rubbish");
+  const Study study = LoadStudy({folder_ / "bad"}, {});
+  EXPECT_THROW(WritePage(study, {.title = "", .command = "", .file = folder_ / "out.html"}), CommandError);
+  EXPECT_NE((FailureRule{.max_mean_m = 0.0}).Validate(), "");
+  EXPECT_NE((FailureRule{.min_coverage = 1.1}).Validate(), "");
+}
+
+TEST_F(Report, MapIsCutToWhatIsKnown) {
+  WriteRun("run", "x", 0.1);
+  const MapImage map = LoadMapImage(folder_ / "run/x_map.pgm");
+  EXPECT_EQ(map.width, 2);
+  EXPECT_EQ(map.height, 1);
+  EXPECT_EQ(map.resolution_m, 0.05);
+  EXPECT_EQ(map.png.substr(1, 3), "PNG");
+  Write("run/cut.pgm", "P5\n400 300\n255\nxx");
+  EXPECT_EQ(LoadMapImage(folder_ / "run/cut.pgm").png, "");
+  Write("run/text.pgm", "hello");
+  EXPECT_EQ(LoadMapImage(folder_ / "run/text.pgm").png, "");
+}
+
+TEST(Encodings, KnownValues) {
+  EXPECT_EQ(Sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(Base64("light w"), "bGlnaHQgdw==");
+  EXPECT_EQ(Base64(""), "");
+}
+
+TEST(Numbers, ThreeDigits) {
+  EXPECT_EQ(Number(0.65649), "0.656");
+  EXPECT_EQ(Number(5.2349), "5.23");
+  EXPECT_EQ(Number(0.0), "0.00");
+  EXPECT_EQ(Number(1234.5), "1234");
+  EXPECT_EQ(Number(-0.01234), "-0.0123");
+  EXPECT_EQ(Number(kInfinity), "failed");
+  EXPECT_EQ(Number(std::nan("")), "-");
+  EXPECT_EQ(PValue(0.0321), "0.032");
+  EXPECT_EQ(PValue(4.2e-10), "4.2e-10");
+}
+
+TEST(Csv, QuotesWhereNeeded) {
+  const Table table{"t", "", {"", "b,c"}, {{"say \"hi\"", "2"}}, 1};
+  EXPECT_EQ(ToCsv(table), ",\"b,c\"\n\"say \"\"hi\"\"\",2\n");
+}
+
+}  // namespace
+}  // namespace lcmslam::report
