@@ -42,6 +42,7 @@ no_links() { ! grep -nE '(src|href)="(https?:|file:|/)|@import|url\(http' "$1"; 
 
 # Measures every picture in the page as the browser lays it out.
 open_page() {
+  # shellcheck disable=SC2016  # JavaScript templates, not the shell's
   local probe='<script>addEventListener("load", () => {
     const bad = [...document.querySelectorAll("figure")].filter(f => {
       const svg = f.querySelector("svg"), img = f.querySelector("img");
