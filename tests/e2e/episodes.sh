@@ -4,7 +4,7 @@ set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
 
 episodes=20
-first_seed=1001
+first_seed=1
 failure_m=0.10 # a larger mean error is a failed episode, and so are fewer than 99 % judged poses
 
 main() {
