@@ -40,8 +40,8 @@ struct RegistrationOptions {
   double inlier_sigmas = 3.0;      // residuals below count as inliers
   double map_sigma_m = 0.003;      // m; the map's own error, added to every beam's
   double min_cos_incidence = 0.3;  // grazing beams weigh no more than this one
-  double stop_sigmas = 0.1;       // stop when a step is shorter than this part of the pose's own sigma
-  double min_eigenvalue = 0.006;  // a direction seen by less than this part of the beams is unobservable
+  double stop_sigmas = 0.1;        // stop when a step is shorter than this part of the pose's own sigma
+  double min_eigenvalue = 0.006;   // a direction seen by less than this part of the beams is unobservable
   int min_points = 20;
 
   std::string Validate() const;
@@ -92,20 +92,20 @@ struct RecoveryOptions {
 };
 
 struct Options {
-  double cell_m = 0.05;         // distance between map vertices
-  double coarse_cell_m = 0.20;  // the same on the coarse level
-  double min_range_m = 0.02;    // nearer returns are ignored
-  double max_range_m = 79.0;    // farther ones, too
-  Pose2 T_body_lidar;           // where the lidar sits
-  Pose2 T_map_body_initial;     // the first scan's pose
-  bool deskew = true;           // use each beam's own time
-  bool localize_only = false;   // never write into the map
-  NoiseOptions noise;
-  MotionOptions motion;
-  RegistrationOptions registration;
-  SurfaceOptions surface;
-  FusionOptions fusion;
-  RecoveryOptions recovery;
+  double cell_m = 0.05;           // distance between map vertices
+  double coarse_cell_m = 0.20;    // the same on the coarse level
+  double min_range_m = 0.02;      // nearer returns are ignored
+  double max_range_m = 79.0;      // farther ones, too
+  Pose2 T_body_lidar = {};        // where the lidar sits
+  Pose2 T_map_body_initial = {};  // the first scan's pose
+  bool deskew = true;             // use each beam's own time
+  bool localize_only = false;     // never write into the map
+  NoiseOptions noise = {};
+  MotionOptions motion = {};
+  RegistrationOptions registration = {};
+  SurfaceOptions surface = {};
+  FusionOptions fusion = {};
+  RecoveryOptions recovery = {};
 
   // "" or "field: reason", parts included.
   std::string Validate() const;
