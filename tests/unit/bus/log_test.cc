@@ -8,6 +8,7 @@
 #include "bus/errors.h"
 #include "bus/log_reader.h"
 #include "bus/log_writer.h"
+#include "support/temporary_file.h"
 
 namespace lcmslam {
 namespace {
@@ -16,13 +17,11 @@ class Log : public testing::Test {
  protected:
   // 100 events of growing size; utime 10, 20, ...
   void SetUp() override {
-    path_ = testing::TempDir() + "log_test_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".lcm";
     LogWriter writer(path_);
     for (int i = 1; i <= 100; ++i)
       writer.Write(10 * i, "CHANNEL_" + std::to_string(i % 3),
                    Bytes(std::vector<uint8_t>(static_cast<size_t>(i), static_cast<uint8_t>(i))));
   }
-  void TearDown() override { std::filesystem::remove(path_); }
 
   std::vector<Event> ReadAll(LogReader& reader) {
     std::vector<Event> events;
@@ -30,7 +29,8 @@ class Log : public testing::Test {
     return events;
   }
 
-  std::string path_;
+  const TemporaryFile file_;
+  const std::string path_ = file_.path();
 };
 
 TEST_F(Log, IsWhatLiblcmReads) {

@@ -1,11 +1,10 @@
 #include "bus/service.h"
 
-#include <filesystem>
-
 #include <gtest/gtest.h>
 #include <lcmslam/service_status_t.hpp>
 
 #include "bus/log_writer.h"
+#include "support/temporary_file.h"
 
 namespace lcmslam {
 namespace {
@@ -29,21 +28,18 @@ class Echo : public Service {
 class LogToLog : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = testing::TempDir() + "service_test";
-    std::filesystem::create_directories(folder_);
-    LogWriter writer(folder_ + "/in.lcm");
+    LogWriter writer(folder_.path() / "in.lcm");
     for (int i = 0; i < 25; ++i) {
       writer.Write(1000 + i * 100'000, "IN", Bytes(std::vector<uint8_t>{static_cast<uint8_t>(i)}));
       writer.Write(1000 + i * 100'000, "OTHER", Bytes());
     }
     writer.Write(2'500'000, "IN", Bytes());
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::vector<Event> Run(const std::string& out) {
     RunOptions options;
-    options.log_in = folder_ + "/in.lcm";
-    options.log_out = folder_ + "/" + out;
+    options.log_in = folder_.path() / "in.lcm";
+    options.log_out = folder_.path() / out;
     options.quiet = true;
     ServiceContext context("echo", options);
     EXPECT_EQ(RunLogToLog(context, [](ServiceContext& c) { return std::make_unique<Echo>(c); }), ExitCode::kOk);
@@ -53,7 +49,7 @@ class LogToLog : public testing::Test {
     return events;
   }
 
-  std::string folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(LogToLog, KeepsTheInputAndAddsWhatItCaused) {

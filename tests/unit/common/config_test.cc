@@ -1,14 +1,13 @@
 #include "common/config.h"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include <gmock/gmock.h>
 #include <google/protobuf/duration.pb.h>
 #include <google/protobuf/type.pb.h>
 
 #include "bus/errors.h"
+#include "support/temporary_file.h"
 
 namespace lcmslam {
 namespace {
@@ -30,12 +29,9 @@ std::string ErrorOf(Body body) {
 }
 
 std::string LoadError(const std::string& text) {
-  const std::string path = testing::TempDir() + "config_test.pbtxt";
-  std::ofstream(path) << text;
+  const TemporaryFile file(text, ".pbtxt");
   Field config;
-  const std::string error = ErrorOf([&] { LoadConfig(path, config); });
-  std::filesystem::remove(path);
-  return error;
+  return ErrorOf([&] { LoadConfig(file.path(), config); });
 }
 
 TEST(Config, RefusesWhatItDoesNotKnow) {

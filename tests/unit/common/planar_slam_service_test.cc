@@ -12,6 +12,7 @@
 
 #include "bus/log_writer.h"
 #include "bus/messages.h"
+#include "support/temporary_file.h"
 
 namespace lcmslam {
 namespace {
@@ -47,9 +48,6 @@ class FakeSlam : public PlanarSlam {
 
 class PlanarSlamServiceTest : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   void Write(int64_t utime, const std::string& channel, Bytes data) { input_.Write(utime, channel, data); }
   template <LcmMessage M>
   void Write(int64_t utime, const std::string& channel, const M& message) {
@@ -92,8 +90,9 @@ class PlanarSlamServiceTest : public testing::Test {
     return events;
   }
 
-  std::filesystem::path folder_ = testing::TempDir() + "planar_slam_service_test";
-  LogWriter input_{(std::filesystem::create_directories(folder_), folder_ / "in.lcm")};
+  const TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
+  LogWriter input_{folder_ / "in.lcm"};
   std::vector<std::string> calls_;
   int64_t refused_ = 0;
 };

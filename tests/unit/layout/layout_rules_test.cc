@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/temporary_file.h"
+
 namespace lcmslam {
 namespace {
 
@@ -75,14 +77,12 @@ TEST(Layout, LibraryHasNoClockAndNoLogger) {
 // A project made for the test, so that the reading of folders and lines is tested too.
 class LayoutTree : public ::testing::Test {
  protected:
-  void SetUp() override { fs::remove_all(root_); }
-  void TearDown() override { fs::remove_all(root_); }
   void Write(const std::string& file, const std::string& text) const {
     fs::create_directories((root_ / file).parent_path());
     std::ofstream(root_ / file) << text;
   }
-  const fs::path root_ = fs::path(::testing::TempDir()) / "lcmslam_layout" /
-                         ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const TemporaryFolder temporary_;
+  const fs::path& root_ = temporary_.path();
 };
 
 TEST_F(LayoutTree, NamesFileAndLineOfEachForbiddenInclude) {

@@ -8,7 +8,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
+
+#include "support/temporary_file.h"
 
 namespace lcmslam {
 namespace {
@@ -50,13 +51,12 @@ TEST(OccupancyGrid, LogOddsKeepTheirSign) {
 }
 
 TEST(OccupancyGrid, WritesBothFilesOrSaysWhichItCannot) {
-  const auto folder = std::filesystem::temp_directory_path() / ("occupancy_grid_test_" + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path& folder = temporary.path();
   EXPECT_EQ(WriteMapFiles(TwoByThree(), folder / "map"), "");
   EXPECT_EQ(Slurp(folder / "map.pgm"), EncodePgm(TwoByThree()));
   EXPECT_EQ(Slurp(folder / "map.yaml"), MapYaml(TwoByThree(), "map.pgm"));
   EXPECT_THAT(WriteMapFiles(TwoByThree(), folder / "absent/map"), HasSubstr("absent/map.pgm"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(OccupancyGrid, CoarseningKeepsWhatIsOccupied) {

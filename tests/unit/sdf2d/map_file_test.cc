@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "sdf2d/occupancy.h"
+#include "support/temporary_file.h"
 
 namespace lcmslam::sdf2d {
 namespace {
@@ -31,13 +32,13 @@ SdfMap WallMap() {
 
 class MapFile : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   std::string Bytes() {
     std::ifstream file(path_, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
   void Overwrite(const std::string& bytes) { std::ofstream(path_, std::ios::binary) << bytes; }
-  std::string path_ = testing::TempDir() + "map_file_test.sdf";
+  const TemporaryFile file_;
+  const std::string path_ = file_.path();
   std::string error_;
 };
 

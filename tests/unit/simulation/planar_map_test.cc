@@ -13,6 +13,7 @@
 #include "geometry/pose2.h"
 #include "simulation/planar_drive.h"
 #include "simulation/random.h"
+#include "support/temporary_file.h"
 
 namespace lcmslam {
 namespace {
@@ -97,9 +98,6 @@ TEST(PlanarMap, RobotsStayInKnownFreeSpace) {
 
 class MapFileTest : public testing::Test {
  protected:
-  MapFileTest() { std::filesystem::create_directories(folder_); }
-  ~MapFileTest() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path Write(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
     return folder_ / name;
@@ -113,8 +111,8 @@ class MapFileTest : public testing::Test {
     return "none";
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const TemporaryFolder temporary_;
+  const std::filesystem::path& folder_ = temporary_.path();
 };
 
 const char* const kYaml = "image: map.pgm\nresolution: 0.1\norigin: [1, 2, 0.5]\nnegate: 0\n";

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/temporary_file.h"
 #include "trajectory/read.h"
 #include "trajectory/text_lines.h"
 #include "trajectory/write.h"
@@ -19,10 +20,7 @@ using ::testing::HasSubstr;
 
 class ReadWrite : public ::testing::Test {
  protected:
-  std::filesystem::path Path(const std::string& name) const {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    return std::filesystem::path(::testing::TempDir()) / (std::string(info->name()) + "_" + name);
-  }
+  std::filesystem::path Path(const std::string& name) const { return folder_.path() / name; }
   std::filesystem::path Write(const std::string& name, const std::string& text) const {
     std::ofstream(Path(name), std::ios::binary) << text;
     return Path(name);
@@ -39,6 +37,9 @@ class ReadWrite : public ::testing::Test {
       EXPECT_LT(AngleBetween(a[i].pose.rotation, b[i].pose.rotation), 1e-8);
     }
   }
+
+ private:
+  const TemporaryFolder folder_;
 };
 
 Trajectory Flight(int64_t start_utime) { return testing::Sample(testing::Flight, 20.0, 0.0371, start_utime); }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/real_data.h"
+#include "support/temporary_file.h"
 #include "unit/trajectory/matrix_oracle.h"
 #include "unit/trajectory/trajectories.h"
 
@@ -29,11 +30,7 @@ Eigen::Matrix4d FromEuler(const Eigen::Vector3d& translation, double roll, doubl
   return m;
 }
 
-std::filesystem::path WriteFile(const std::string& text) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / "test.relations";
-  std::ofstream(path) << text;
-  return path;
-}
+RelationFile Read(const std::string& text) { return ReadRelations(TemporaryFile(text, "test.relations").path()); }
 
 TEST(EvaluateRelations, AgreesWithMatricesFromTheDefinition) {
   testing::Noise noise(1);
@@ -54,7 +51,7 @@ TEST(EvaluateRelations, AgreesWithMatricesFromTheDefinition) {
     translation.push_back(testing::Translation(error));
     rotation.push_back(testing::Angle(error));
   }
-  const RelationFile file = ReadRelations(WriteFile(text));
+  const RelationFile file = Read(text);
   ASSERT_EQ(file.error, "");
   const RelationErrors actual = EvaluateRelations(estimate, file.relations, 1);
   EXPECT_EQ(actual.unmatched, 0);
@@ -75,11 +72,10 @@ TEST(EvaluateRelations, CountsWhatHasNoPose) {
 }
 
 TEST(ReadRelations, ErrorsNameFileAndLine) {
-  EXPECT_THAT(ReadRelations(WriteFile("1 2 0 0 0 0 0 0\n1 2 0 0 0 0 0\n")).error,
+  EXPECT_THAT(Read("1 2 0 0 0 0 0 0\n1 2 0 0 0 0 0\n").error,
               EndsWith("test.relations:2: 8 numbers expected (t1 t2 x y z roll pitch yaw), found 7"));
-  EXPECT_THAT(ReadRelations(WriteFile("1 2 0 0 0 0 0 nan\n")).error,
-              EndsWith("test.relations:1: not a finite number: 'nan'"));
-  EXPECT_THAT(ReadRelations(WriteFile("")).error, EndsWith("test.relations: no relations"));
+  EXPECT_THAT(Read("1 2 0 0 0 0 0 nan\n").error, EndsWith("test.relations:1: not a finite number: 'nan'"));
+  EXPECT_THAT(Read("").error, EndsWith("test.relations: no relations"));
   EXPECT_THAT(ReadRelations("/nowhere").error, HasSubstr("cannot open"));
 }
 
