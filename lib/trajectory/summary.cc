@@ -40,6 +40,7 @@ Summary Summarize(std::span<const double> values) {
   std::vector<double> ordered(values.begin(), values.end());
   s.median = PercentileInPlace(ordered, 0.5);
   s.p95 = PercentileInPlace(ordered, 0.95);
+  s.p99 = PercentileInPlace(ordered, 0.99);
   const auto [min, max] = std::ranges::minmax(values);
   s.min = min;
   s.max = max;

@@ -14,6 +14,7 @@ struct Summary {
   double median = std::numeric_limits<double>::quiet_NaN();  // mean of the middle two when the count is even
   double sd = std::numeric_limits<double>::quiet_NaN();      // divides by count, as evo and NumPy do
   double p95 = std::numeric_limits<double>::quiet_NaN();     // as Percentile
+  double p99 = std::numeric_limits<double>::quiet_NaN();
   double min = std::numeric_limits<double>::quiet_NaN();
   double max = std::numeric_limits<double>::quiet_NaN();
 };

@@ -98,6 +98,7 @@ result::Summary ToMessage(const Summary& summary, double unit) {
   message.set_median(unit * summary.median);
   message.set_sd(unit * summary.sd);
   message.set_p95(unit * summary.p95);
+  message.set_p99(unit * summary.p99);
   message.set_min(unit * summary.min);
   message.set_max(unit * summary.max);
   return message;

@@ -8,6 +8,7 @@
 #include "bus/errors.h"
 #include "evaluator/report/encodings.h"
 #include "evaluator/report/section.h"
+#include "evaluator/report/study_tables.h"
 #include "evaluator/report/style.h"
 #include "evaluator/report/table.h"
 
@@ -150,6 +151,9 @@ void WritePage(const Study& study, const PageOptions& options) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
       EscapeHtml(options.title), kStyleSheet);
+  const Table overview = OverviewTable(study);
+  WriteFile(folder / "overview.csv", ToCsv(overview));
+  if (study.groups.size() > 1) html += ToHtml(overview);
   for (const Section& section : sections) html += SectionHtml(section, svgs);
   html += MethodHtml(study, options);
   html += ConfigurationsHtml(study);

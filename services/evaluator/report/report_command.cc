@@ -3,9 +3,11 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "common/config.h"
 #include "evaluator/report/page.h"
+#include "evaluator/report/study_tables.h"
 
 namespace lcmslam::report {
 namespace {
@@ -40,6 +42,7 @@ void AddReportCommand(CLI::App& app, const std::string& typed, std::function<Exi
       const Study study = LoadStudy(arguments->folders, arguments->failure);
       if (arguments->page.title.empty()) arguments->page.title = DefaultTitle(study);
       WritePage(study, arguments->page);
+      fmt::print("{}", ToText(OverviewTable(study)));
       return ExitCode::kOk;
     };
   });

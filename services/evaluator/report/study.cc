@@ -62,7 +62,8 @@ fs::path FindReference(const fs::path& folder) {
 
 // No runs when the folder is no episode.
 Episode ReadEpisode(const fs::path& folder, const std::string& name) {
-  Episode episode{.name = name, .folder = folder, .reference = FindReference(folder), .runs = {}};
+  Episode episode{.name = name, .folder = folder, .reference = FindReference(folder), .bound = {}, .runs = {}};
+  if (fs::is_regular_file(folder / "bound.csv")) episode.bound = ReadBound(folder / "bound.csv");
   for (const fs::path& path : SortedEntries(folder)) {
     const std::string system = SystemOfMetrics(path);
     if (system.empty()) continue;

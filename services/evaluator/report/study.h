@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "evaluator/evaluation.pb.h"
+#include "evaluator/report/bound.h"
 
 namespace lcmslam::report {
 
@@ -28,6 +29,7 @@ struct Episode {
   std::string name;
   std::filesystem::path folder;
   std::filesystem::path reference;  // trajectory
+  Bound bound;                      // from bound.csv, where there is one
   std::map<std::string, Run> runs;  // by system, all systems of the study
 };
 

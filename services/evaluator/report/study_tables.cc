@@ -42,8 +42,25 @@ double Coverage(const Run& run) {
   return static_cast<double>(relations.matched()) / static_cast<double>(relations.matched() + relations.unmatched());
 }
 
-double MedianStepMs(const Run& run) {
-  return run.metrics.timing().has_step_ms() ? run.metrics.timing().step_ms().median() : kNaN;
+// Median over the episodes that know it of one figure of the time of a scan, ms.
+double StepMs(const Group& group, const std::string& system, double (result::Summary::*figure)() const) {
+  return MedianOfKnown(OverEpisodes(group, system, [&](const Run& run) {
+    return run.metrics.timing().has_step_ms() ? (run.metrics.timing().step_ms().*figure)() : kNaN;
+  }));
+}
+
+// Median over the episodes that have a bound of error over bound; failed ones rank worst.
+double OverBound(const Group& group, const std::string& system, double (result::Summary::*error)() const,
+                 double Bound::*bound) {
+  std::vector<double> ratios;
+  for (const Episode& episode : group.episodes) {
+    const Run& run = episode.runs.at(system);
+    if (!(episode.bound.*bound > 0.0)) continue;
+    ratios.push_back(run.failure.empty() ? (ErrorOf(run).translation_m().*error)() / (episode.bound.*bound)
+                                         : std::numeric_limits<double>::infinity());
+  }
+  std::ranges::sort(ratios);
+  return Ranked(ratios, 0.5);
 }
 
 void AddErrorRow(Table& table, const std::string& system, const std::string& what, const result::PoseError& error) {
@@ -109,19 +126,47 @@ Table SystemsTable(const Study& study, const Group& group) {
   table.name = "systems";
   table.caption = fmt::format(
       "Mean error of each of {} episodes, summed up over episodes. Mean and SD (n - 1) over completed episodes; in "
-      "median, p95 "
-      "and max failed ones rank worst.",
+      "median, p95 and max failed ones rank worst. RMSE / bound: RMSE of an episode over the root mean square of its "
+      "scans' Cramer-Rao bounds, median over episodes. Times: of a scan, wall clock, median over episodes.",
       group.episodes.size());
-  table.header = {"system",   "completed",   "mean [mm]",  "median [mm]",  "SD [mm]",  "p95 [mm]",
-                  "max [mm]", "rot. [mrad]", "rot. [deg]", "coverage [%]", "scan [ms]"};
+  table.header = {"system",      "completed",  "mean [mm]",    "median [mm]",  "SD [mm]",     "p95 [mm]", "max [mm]",
+                  "rot. [mrad]", "rot. [deg]", "coverage [%]", "RMSE / bound", "median [ms]", "p95 [ms]", "p99 [ms]"};
   for (const std::string& system : study.systems) {
     const EpisodeSummary s = SummarizeEpisodes(TranslationErrors(group, system));
     const EpisodeSummary r = SummarizeEpisodes(RotationErrors(group, system));
-    table.rows.push_back({system, fmt::format("{} of {}", s.completed, s.episodes), Millimetres(s.mean),
-                          Millimetres(s.median), Millimetres(s.sd), Millimetres(s.p95), Millimetres(s.max),
-                          Milliradians(r.mean), Degrees(r.mean),
-                          Percent(MedianOfKnown(OverEpisodes(group, system, Coverage))),
-                          Number(MedianOfKnown(OverEpisodes(group, system, MedianStepMs)))});
+    table.rows.push_back(
+        {system, fmt::format("{} of {}", s.completed, s.episodes), Millimetres(s.mean), Millimetres(s.median),
+         Millimetres(s.sd), Millimetres(s.p95), Millimetres(s.max), Milliradians(r.mean), Degrees(r.mean),
+         Percent(MedianOfKnown(OverEpisodes(group, system, Coverage))),
+         Number(OverBound(group, system, &result::Summary::rmse, &Bound::rms_m)),
+         Number(StepMs(group, system, &result::Summary::median)), Number(StepMs(group, system, &result::Summary::p95)),
+         Number(StepMs(group, system, &result::Summary::p99))});
+  }
+  return table;
+}
+
+Table OverviewTable(const Study& study) {
+  Table table;
+  table.name = "overview";
+  table.caption = fmt::format(
+      "Mean position error of each episode, summed up over episodes; failed: mean error above {:g} m or coverage below "
+      "{:g} %. Mean and SD (n - 1) over completed episodes; in the median failed ones rank worst. Ratios: over {}. "
+      "Mean / bound: mean error over the mean of the scans' Cramer-Rao bounds, median over episodes.",
+      study.failure_rule.max_mean_m, 100.0 * study.failure_rule.min_coverage, study.systems.front());
+  table.header = {"episodes",     "system",   "completed",    "mean [mm]",   "median [mm]", "SD [mm]", "mean ratio",
+                  "median ratio", "SD ratio", "mean / bound", "median [ms]", "p95 [ms]",    "p99 [ms]"};
+  table.text_columns = 2;
+  for (const Group& group : study.groups) {
+    const EpisodeSummary first = SummarizeEpisodes(TranslationErrors(group, study.systems.front()));
+    for (const std::string& system : study.systems) {
+      const EpisodeSummary s = SummarizeEpisodes(TranslationErrors(group, system));
+      table.rows.push_back(
+          {group.name, system, fmt::format("{}/{}", s.completed, s.episodes), Millimetres(s.mean),
+           Millimetres(s.median), Millimetres(s.sd), Number(s.mean / first.mean), Number(s.median / first.median),
+           Number(s.sd / first.sd), Number(OverBound(group, system, &result::Summary::mean, &Bound::mean_m)),
+           Number(StepMs(group, system, &result::Summary::median)),
+           Number(StepMs(group, system, &result::Summary::p95)), Number(StepMs(group, system, &result::Summary::p99))});
+    }
   }
   return table;
 }

@@ -30,6 +30,8 @@ struct Comparison {
 };
 std::vector<Comparison> CompareSystems(const Study& study, const Group& group);
 
+// One row for every group and system: the thesis' Tab. 4.1.
+Table OverviewTable(const Study& study);
 // Completion, error over episodes, coverage, time.
 Table SystemsTable(const Study& study, const Group& group);
 // The thesis' form: mean, median, SD of two systems with both ratios.

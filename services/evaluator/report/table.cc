@@ -1,5 +1,6 @@
 #include "evaluator/report/table.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -46,6 +47,27 @@ std::string ToCsv(const Table& table) {
   std::string csv = CsvRow(table.header);
   for (const auto& row : table.rows) csv += CsvRow(row);
   return csv;
+}
+
+std::string ToText(const Table& table) {
+  std::vector<size_t> widths(table.header.size());
+  const auto widen = [&](const std::vector<std::string>& cells) {
+    for (size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
+  };
+  widen(table.header);
+  for (const auto& row : table.rows) widen(row);
+  std::string text = table.caption + "\n";
+  const auto print = [&](const std::vector<std::string>& cells) {
+    std::string line;
+    for (size_t i = 0; i < cells.size(); ++i) {
+      line += i < table.text_columns ? fmt::format("{:<{}}  ", cells[i], widths[i])
+                                     : fmt::format("{:>{}}  ", cells[i], widths[i]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  };
+  print(table.header);
+  for (const auto& row : table.rows) print(row);
+  return text;
 }
 
 std::string EscapeHtml(std::string_view text) {

@@ -17,6 +17,8 @@ struct Table {
 
 std::string ToHtml(const Table& table);
 std::string ToCsv(const Table& table);
+// Caption and aligned columns.
+std::string ToText(const Table& table);
 
 // & < > " as entities.
 std::string EscapeHtml(std::string_view text);

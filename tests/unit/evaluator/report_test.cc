@@ -125,6 +125,49 @@ TEST(SummarizeEpisodes, RanksFailuresWorst) {
   EXPECT_TRUE(std::isnan(SummarizeEpisodes({1.0}).sd));
 }
 
+// The scans' bounds are 3 and 4 mm: 3.5 mm on average, root mean square sqrt(12.5) mm.
+TEST_F(Report, ErrorsAreSetAgainstTheBound) {
+  for (const char* episode : {"low/e1", "low/e2", "low/e3", "none/e1"}) {
+    WriteRun(episode, "a", 0.007);
+    WriteRun(episode, "b", 0.014);
+    Write(std::string(episode) + "/bound.csv",
+          "utime_us,position_m,yaw_rad\n100,0.003,0.1\n200,0.004,0.1\n300,inf,inf\n");
+  }
+  Write("none/e1/bound.csv", "utime_us,position_m,yaw_rad\n100,0,0\n");
+  fs::remove(folder_ / "low/e1/bound.csv");
+  const Study study = LoadStudy({folder_ / "low", folder_ / "none"}, {});
+  const Table overview = OverviewTable(study);
+  ASSERT_EQ(overview.rows.size(), 4u);
+  EXPECT_THAT(overview.rows[0],
+              ElementsAre("low", "a", "3/3", "7.00", "7.00", "0.00", "1.00", "1.00", "-", "2.00", "-", "-", "-"));
+  EXPECT_THAT(overview.rows[1],
+              ElementsAre("low", "b", "3/3", "14.0", "14.0", "0.00", "2.00", "2.00", "-", "4.00", "-", "-", "-"));
+  EXPECT_EQ(overview.rows[2][9], "-") << "no noise, no bound";
+  const Table systems = SystemsTable(study, study.groups[0]);
+  EXPECT_EQ(systems.header[10], "RMSE / bound");
+  EXPECT_EQ(systems.rows[0][10], "1.98");
+}
+
+TEST_F(Report, BadBoundsAreNamed) {
+  const auto error_of = [&](const std::string& text) -> std::string {
+    Write("bound.csv", text);
+    try {
+      ReadBound(folder_ / "bound.csv");
+    } catch (const CommandError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of(""), HasSubstr("bound.csv: empty"));
+  EXPECT_THAT(error_of("utime_us\n1\n"), HasSubstr("bound.csv:1: no column position_m"));
+  EXPECT_THAT(error_of("utime_us,position_m\n1,2\n3\n"), HasSubstr("bound.csv:3: too few columns"));
+  EXPECT_THAT(error_of("utime_us,position_m\n1,-2\n"), HasSubstr("is no bound"));
+  EXPECT_THAT(error_of("utime_us,position_m\n1,nan\n"), HasSubstr("is no bound"));
+  EXPECT_EQ(error_of("utime_us,position_m\n"), "");
+  EXPECT_TRUE(std::isnan(ReadBound(folder_ / "bound.csv").mean_m));
+  EXPECT_THROW(ReadBound(folder_ / "absent.csv"), CommandError);
+}
+
 TEST_F(Report, PageHoldsEverything) {
   for (int k = 0; k < 8; ++k) {
     WriteRun("e/" + std::to_string(k), "sdf2d-slam", 0.001 * (k + 1));
@@ -230,6 +273,11 @@ TEST(Numbers, ThreeDigits) {
   EXPECT_EQ(Number(std::nan("")), "-");
   EXPECT_EQ(PValue(0.0321), "0.032");
   EXPECT_EQ(PValue(4.2e-10), "4.2e-10");
+}
+
+TEST(TextTable, AlignsColumns) {
+  const Table table{"t", "Caption.", {"name", "mm"}, {{"a", "12.5"}, {"longer", "3"}}, 1};
+  EXPECT_EQ(ToText(table), "Caption.\nname      mm\na       12.5\nlonger     3\n");
 }
 
 TEST(Csv, QuotesWhereNeeded) {

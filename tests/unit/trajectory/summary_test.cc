@@ -37,6 +37,7 @@ TEST(Summarize, AgreesWithDefinitions) {
     EXPECT_NEAR(s.sd, std::sqrt(variance), 1e-12);
     EXPECT_NEAR(s.median, SortedPercentile(v, 0.5), 1e-12);
     EXPECT_NEAR(s.p95, SortedPercentile(v, 0.95), 1e-12);
+    EXPECT_NEAR(s.p99, SortedPercentile(v, 0.99), 1e-12);
     EXPECT_EQ(s.min, *std::ranges::min_element(v));
     EXPECT_EQ(s.max, *std::ranges::max_element(v));
   }
