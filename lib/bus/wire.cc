@@ -1,9 +1,12 @@
 #include "bus/wire.h"
 
 #include <lcmslam/evaluation_t.hpp>
+#include <lcmslam/imu_t.hpp>
+#include <lcmslam/lidar_packet_t.hpp>
 #include <lcmslam/occupancy_grid_t.hpp>
 #include <lcmslam/planar_lidar_t.hpp>
 #include <lcmslam/planar_scan_t.hpp>
+#include <lcmslam/point_cloud_chunk_t.hpp>
 #include <lcmslam/pose_t.hpp>
 #include <lcmslam/pose_xyt_t.hpp>
 #include <lcmslam/rigid_transform_t.hpp>
@@ -11,6 +14,7 @@
 #include <lcmslam/service_status_t.hpp>
 #include <lcmslam/slam_command_t.hpp>
 #include <lcmslam/slam_diagnostics_t.hpp>
+#include <lcmslam/surfel_chunk_t.hpp>
 
 namespace lcmslam {
 namespace {
@@ -124,6 +128,32 @@ bool LayoutFits<occupancy_grid_t>(Bytes message) {
   Walker walk(message);
   const size_t n = walk.Skip(k64 + 3 * k32 + 2 * k32).Count();
   return walk.Array(n, k8).AtEnd();
+}
+
+template <>
+bool LayoutFits<point_cloud_chunk_t>(Bytes message) {
+  Walker walk(message);
+  const size_t n = walk.Skip(k64).Count();
+  return walk.Skip(k32 + 2 * k16).Array(n, 4 * k32 + k16 + k32).AtEnd();
+}
+
+template <>
+bool LayoutFits<lidar_packet_t>(Bytes message) {
+  Walker walk(message);
+  const size_t n = walk.Skip(k64).Count();
+  return walk.Skip(k32).Array(n, k8).AtEnd();
+}
+
+template <>
+bool LayoutFits<imu_t>(Bytes message) {
+  return Walker(message).Skip(k64 + 6 * k64).AtEnd();
+}
+
+template <>
+bool LayoutFits<surfel_chunk_t>(Bytes message) {
+  Walker walk(message);
+  const size_t n = walk.Skip(k64).Count();
+  return walk.Skip(k32).Array(n, 9 * k32).AtEnd();
 }
 
 template <>

@@ -8,30 +8,19 @@
 #include <tuple>
 
 #include <fmt/format.h>
-#include <lcmslam/evaluation_t.hpp>
-#include <lcmslam/occupancy_grid_t.hpp>
-#include <lcmslam/planar_lidar_t.hpp>
-#include <lcmslam/planar_scan_t.hpp>
-#include <lcmslam/pose_t.hpp>
-#include <lcmslam/pose_xyt_t.hpp>
-#include <lcmslam/rigid_transform_t.hpp>
-#include <lcmslam/sdf_tile_t.hpp>
-#include <lcmslam/service_status_t.hpp>
-#include <lcmslam/slam_command_t.hpp>
-#include <lcmslam/slam_diagnostics_t.hpp>
 
 #include "bus/errors.h"
 #include "bus/log_writer.h"
 #include "bus/wire.h"
+#include "support/every_type.h"
 #include "support/sample_messages.h"
 
 namespace lcmslam {
 namespace {
 
-using EveryType = std::tuple<planar_scan_t, planar_lidar_t, pose_t, pose_xyt_t, rigid_transform_t, occupancy_grid_t,
-                             sdf_tile_t, slam_diagnostics_t, slam_command_t, service_status_t, evaluation_t>;
-constexpr std::array<const char*, 6> kChannels{"LIDAR_2D",     "LIDAR_2D_EXTRINSICS", "ODOMETRY",
-                                               "GROUND_TRUTH", "SLAM_COMMAND",        "SDF2D_POSE"};
+constexpr std::array kChannels{
+    "LIDAR_2D", "LIDAR_2D_EXTRINSICS", "LIDAR_3D",     "LIDAR_3D_EXTRINSICS", "LIDAR_3D_PACKET", "IMU",
+    "ODOMETRY", "GROUND_TRUTH",        "SLAM_COMMAND", "SDF2D_POSE"};
 
 template <class... Messages>
 void WriteMutated(int count, std::mt19937_64& random, LogWriter& log, std::tuple<Messages...> /*types*/) {

@@ -5,9 +5,12 @@
 #include <string>
 
 #include <lcmslam/evaluation_t.hpp>
+#include <lcmslam/imu_t.hpp>
+#include <lcmslam/lidar_packet_t.hpp>
 #include <lcmslam/occupancy_grid_t.hpp>
 #include <lcmslam/planar_lidar_t.hpp>
 #include <lcmslam/planar_scan_t.hpp>
+#include <lcmslam/point_cloud_chunk_t.hpp>
 #include <lcmslam/pose_t.hpp>
 #include <lcmslam/pose_xyt_t.hpp>
 #include <lcmslam/rigid_transform_t.hpp>
@@ -15,6 +18,7 @@
 #include <lcmslam/service_status_t.hpp>
 #include <lcmslam/slam_command_t.hpp>
 #include <lcmslam/slam_diagnostics_t.hpp>
+#include <lcmslam/surfel_chunk_t.hpp>
 
 namespace lcmslam {
 namespace {
@@ -114,6 +118,58 @@ occupancy_grid_t RandomMessage(Random& random) {
   m.height = Below(30, random);
   m.num_cells = m.width * m.height;
   m.cells = RandomArray<int8_t>(m.num_cells, -127, 127, random);
+  return m;
+}
+
+template <>
+point_cloud_chunk_t RandomMessage(Random& random) {
+  point_cloud_chunk_t m{};
+  m.utime = RandomUtime(random);
+  m.num_points = Below(300, random);
+  m.sweep = Below(1000, random);
+  m.num_chunks = static_cast<int16_t>(1 + Below(12, random));
+  m.chunk = static_cast<int16_t>(Below(m.num_chunks, random));
+  m.x = RandomArray<float>(m.num_points, -10.0, 10.0, random);
+  m.y = RandomArray<float>(m.num_points, -10.0, 10.0, random);
+  m.z = RandomArray<float>(m.num_points, -2.0, 2.0, random);
+  m.intensity = RandomArray<float>(m.num_points, 0.0, 255.0, random);
+  m.ring = RandomArray<int16_t>(m.num_points, 0, 16, random);
+  m.time_offset = RandomArray<int32_t>(m.num_points, -100'000, 0, random);
+  return m;
+}
+
+template <>
+lidar_packet_t RandomMessage(Random& random) {
+  lidar_packet_t m{};
+  m.utime = RandomUtime(random);
+  m.num_bytes = Below(1300, random);
+  m.port = 2368;
+  m.payload = RandomArray<uint8_t>(m.num_bytes, 0, 255, random);
+  return m;
+}
+
+template <>
+imu_t RandomMessage(Random& random) {
+  imu_t m{};
+  m.utime = RandomUtime(random);
+  RandomPosition(m.angular_velocity, random);
+  RandomPosition(m.specific_force, random);
+  return m;
+}
+
+template <>
+surfel_chunk_t RandomMessage(Random& random) {
+  surfel_chunk_t m{};
+  m.utime = RandomUtime(random);
+  m.num_surfels = Below(200, random);
+  m.x = RandomArray<float>(m.num_surfels, -10.0, 10.0, random);
+  m.y = RandomArray<float>(m.num_surfels, -10.0, 10.0, random);
+  m.z = RandomArray<float>(m.num_surfels, -2.0, 2.0, random);
+  m.normal_x = m.normal_y = std::vector<float>(m.x.size(), 0.0F);
+  m.normal_z = std::vector<float>(m.x.size(), 1.0F);
+  m.cell_size = RandomArray<float>(m.num_surfels, 0.1, 0.8, random);
+  m.spread = RandomArray<float>(m.num_surfels, 0.0, 0.05, random);
+  m.count = RandomArray<int32_t>(m.num_surfels, 5, 1000, random);
   return m;
 }
 

@@ -3,18 +3,8 @@
 #include <random>
 
 #include <gtest/gtest.h>
-#include <lcmslam/evaluation_t.hpp>
-#include <lcmslam/occupancy_grid_t.hpp>
-#include <lcmslam/planar_lidar_t.hpp>
-#include <lcmslam/planar_scan_t.hpp>
-#include <lcmslam/pose_t.hpp>
-#include <lcmslam/pose_xyt_t.hpp>
-#include <lcmslam/rigid_transform_t.hpp>
-#include <lcmslam/sdf_tile_t.hpp>
-#include <lcmslam/service_status_t.hpp>
-#include <lcmslam/slam_command_t.hpp>
-#include <lcmslam/slam_diagnostics_t.hpp>
 
+#include "support/every_type.h"
 #include "support/sample_messages.h"
 
 namespace lcmslam {
@@ -23,9 +13,13 @@ namespace {
 template <class M>
 class Wire : public testing::Test {};
 
-using Types = testing::Types<planar_scan_t, planar_lidar_t, pose_t, pose_xyt_t, rigid_transform_t, occupancy_grid_t,
-                             sdf_tile_t, slam_diagnostics_t, slam_command_t, service_status_t, evaluation_t>;
-TYPED_TEST_SUITE(Wire, Types);
+template <class Tuple>
+struct AsTypes;
+template <class... Messages>
+struct AsTypes<std::tuple<Messages...>> {
+  using Types = testing::Types<Messages...>;
+};
+TYPED_TEST_SUITE(Wire, AsTypes<EveryType>::Types);
 
 TYPED_TEST(Wire, DecodesWhatItEncodes) {
   std::mt19937_64 random(1);
