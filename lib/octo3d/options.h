@@ -33,7 +33,7 @@ struct PatchOptions {
 // Continuous-time point-to-plane registration of one sweep.
 struct RegistrationOptions {
   int max_iterations = 12;
-  double kernel = 3.0;             // residuals beyond this many standard deviations lose their weight (Geman-McClure)
+  double kernel = 1.0;             // residuals beyond this many standard deviations lose their weight (Geman-McClure)
   double model_error_m = 0.01;     // per patch, uncorrelated between patches: what the map never models
   double step_m = 1e-4;            // converged when the pose moves less ...
   double step_rad = 1e-4;          // ... and turns less

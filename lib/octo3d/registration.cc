@@ -71,6 +71,7 @@ class Registrar {
   void Summarise();
 
   static constexpr int kMinMatches = 12;  // twice the unknowns of a pose
+  static constexpr double kInlier = 3.0;  // standard deviations
   static constexpr double kNarrowM = 0.02;
   static constexpr double kMaxThickness = 1.1;  // of a patch across the plane it is matched to, in range_noise_m
   static constexpr double kReuseM = 0.005;      // a patch that moved less keeps its plane
@@ -127,13 +128,14 @@ void Registrar::Linearise() {
     const double residual = plane.normal.dot(p - plane.mean);
     const double variance = range_var / patch.count + plane.variance + model_var;
     // A patch at the border of its surface may hold one side of the noise only: judge it by the noise of single points.
-    const double kernel = options_.kernel * std::sqrt(range_var + plane.variance + model_var) + kernel_floor_m_;
+    const double sigma = std::sqrt(range_var + plane.variance + model_var);
+    const double kernel = options_.kernel * sigma + kernel_floor_m_;
     const double ratio = kernel * kernel / (kernel * kernel + residual * residual);
     Vector6 J;
     J << plane.normal, lever.cross(plane.normal);
     measured_.Add(patch.slot, J, residual, ratio * ratio / variance);
     ++matched;
-    if (std::abs(residual) < kernel) {
+    if (std::abs(residual) < kInlier * sigma + kernel_floor_m_) {
       ++inliers;
       squares += residual * residual;
       normalised += residual * residual / (range_var + plane.variance + model_var);
