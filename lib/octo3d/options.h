@@ -7,16 +7,15 @@ namespace lcmslam::octo3d {
 
 // The surfel octree.
 struct MapOptions {
-  double leaf_m = 0.2;          // edge of the finest cells
-  int levels = 4;               // depths that hold surfels: leaf_m, 2 leaf_m, ... 2^(levels-1) leaf_m
-  double range_noise_m = 0.03;  // standard deviation of one point along its beam
-  int min_points = 6;           // fewer points make no surfel
-  double max_thickness = 1.4;   // a surfel's spread across its plane, in range_noise_m
-  double min_flatness = 3.0;    // variance along the plane over variance across it
-  double curvature_per_m =
-      0.01;  // model error of a cell of edge e is curvature_per_m e^2: prefers small cells when all are well known
-  double refit_growth = 1.2;     // a surfel is fitted anew when its points have multiplied by this
-  std::string Validate() const;  // "" or "field: reason"
+  double leaf_m = 0.2;            // edge of the finest cells
+  int levels = 4;                 // depths that hold surfels: leaf_m, 2 leaf_m, ... 2^(levels-1) leaf_m
+  double range_noise_m = 0.03;    // standard deviation of one point along its beam
+  int min_points = 6;             // fewer points make no surfel
+  double max_thickness = 1.4;     // a surfel's spread across its plane, in range_noise_m
+  double min_flatness = 3.0;      // variance along the plane over variance across it
+  double curvature_per_m = 0.01;  // a cell of edge e is off by curvature_per_m e^2: small cells win when well known
+  double refit_growth = 1.2;      // a surfel is fitted anew when its points have multiplied by this
+  std::string Validate() const;   // "" or "field: reason"
 };
 
 // How a sweep is condensed into the patches that registration aligns.
@@ -39,8 +38,7 @@ struct RegistrationOptions {
   double step_rad = 1e-4;          // ... and turns less
   double acceleration_mps2 = 0.5;  // expected changes of velocity: the motion prior
   double angular_acceleration_radps2 = 0.5;
-  double min_direction_share =
-      2e-3;  // a direction that gets less of the information than this is held by the motion prior
+  double min_direction_share = 1e-3;  // directions with less of the information are held by the motion prior
   std::string Validate() const;
 };
 

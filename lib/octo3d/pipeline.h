@@ -32,8 +32,8 @@ struct MotionHint {
 
 struct Result {
   SweepStatus status = SweepStatus::kNoPoints;
-  int64_t utime = 0;                                           // the sweep's
-  Pose3 T_map_body;                                            // at utime, the time of the last point; body = lidar
+  int64_t utime = 0;  // us; of the pose: the sweep's last point, but of the sweep before when kStale
+  Pose3 T_map_body;   // body = lidar
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          // m/s, map frame
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // rad/s, map frame
   Matrix6 covariance = Matrix6::Zero();  // of the pose: translation, rotation vector, both in the map frame
@@ -52,6 +52,7 @@ class Pipeline {
  public:
   explicit Pipeline(const Options& options);  // Validate()d
 
+  // Points that are not finite or out of range are skipped. hint: motion since the sweep processed last.
   Result Process(const Sweep& sweep, const MotionHint& hint = {});
 
   void Reset();                           // empties the map, forgets the motion
