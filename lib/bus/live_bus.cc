@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
+constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152";
 constexpr milliseconds kReceiveTimeout{20};
 constexpr milliseconds kQuiet{100};        // no message for this long: the bus is drained
 constexpr milliseconds kDrainLimit{2000};  // a bus that never falls silent

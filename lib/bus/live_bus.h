@@ -19,8 +19,8 @@ class LCM;
 namespace lcmslam {
 
 // A connection to a running LCM bus, for publishing only (receiving: LiveReceiver).
-// "" means $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0. Throws CommandError: kUsage for a malformed URL,
-// kRuntime where the bus cannot be reached. Publish from one thread at a time.
+// "" means $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152. Throws CommandError: kUsage
+// for a malformed URL, kRuntime where the bus cannot be reached. Publish from one thread at a time.
 class LiveBus {
  public:
   explicit LiveBus(const std::string& url);
