@@ -8,7 +8,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 bin=${LCMSLAM_BIN:-$root/build/bin}
 
 # The exit codes of every command of the project.
-readonly exit_runtime=1 exit_usage=2 exit_bad_input=3
+readonly exit_runtime=1 exit_usage=2 exit_bad_input=3 exit_nothing_matched=4
 
 say() { printf '%s\n' "$*" >&2; }
 

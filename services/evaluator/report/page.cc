@@ -151,6 +151,7 @@ void WritePage(const Study& study, const PageOptions& options) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
       EscapeHtml(options.title), kStyleSheet);
+  if (!options.note.empty()) html += fmt::format("<p>{}</p>\n", EscapeHtml(options.note));
   const Table overview = OverviewTable(study);
   WriteFile(folder / "overview.csv", ToCsv(overview));
   if (study.groups.size() > 1) html += ToHtml(overview);

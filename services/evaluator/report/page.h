@@ -9,6 +9,7 @@ namespace lcmslam::report {
 
 struct PageOptions {
   std::string title;
+  std::string note;            // below the title
   std::string command;         // as it was typed
   std::filesystem::path file;  // the page; pictures and tables go one by one to STEM_files/ beside it
 };

@@ -14,7 +14,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::filesystem::path> folders;
-  PageOptions page{.title = "", .command = "", .file = "report.html"};
+  PageOptions page{.title = "", .note = "", .command = "", .file = "report.html"};
   FailureRule failure;
 };
 
@@ -33,6 +33,7 @@ void AddReportCommand(CLI::App& app, const std::string& typed, std::function<Exi
   report.add_option("DIR", arguments->folders, "results folder, or folder of such")->required();
   report.add_option("--out", arguments->page.file, "the page; pictures and tables go to a folder beside it");
   report.add_option("--title", arguments->page.title, "heading of the page");
+  report.add_option("--note", arguments->page.note, "a sentence below the heading");
   report.add_option("--failure", arguments->failure.max_mean_m, "m: an episode with a larger mean error failed");
   report.add_option("--failure-coverage", arguments->failure.min_coverage, "0 to 1: so does one with less coverage");
   report.callback([arguments, typed, &command] {

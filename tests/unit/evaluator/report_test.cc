@@ -174,9 +174,10 @@ TEST_F(Report, PageHoldsEverything) {
     WriteRun("e/" + std::to_string(k), "occupancy2d-slam", 0.02 + 0.001 * k);
   }
   WritePage(LoadStudy({folder_ / "e"}, {}),
-            {.title = "A & B", .command = "evaluator report e", .file = folder_ / "out.html"});
+            {.title = "A & B", .note = "1 < 2", .command = "evaluator report e", .file = folder_ / "out.html"});
   const std::string page = ReadPage();
   EXPECT_THAT(page, HasSubstr("<h1>A &amp; B</h1>"));
+  EXPECT_THAT(page, HasSubstr("<p>1 &lt; 2</p>"));
   EXPECT_THAT(page, HasSubstr("smaller in 8 of 8 episodes"));
   EXPECT_THAT(page, HasSubstr("8 of 8"));
   EXPECT_THAT(page, HasSubstr("none across gaps of up to 0.3 s"));
@@ -203,7 +204,8 @@ TEST_F(Report, PageHoldsEverything) {
 TEST_F(Report, SameFoldersSamePage) {
   WriteRun("run", "sdf2d-slam", 0.01);
   const auto write = [&] {
-    WritePage(LoadStudy({folder_ / "run"}, {}), {.title = "t", .command = "c", .file = folder_ / "out.html"});
+    WritePage(LoadStudy({folder_ / "run"}, {}),
+              {.title = "t", .note = "", .command = "c", .file = folder_ / "out.html"});
     return ReadPage();
   };
   EXPECT_EQ(write(), write());
@@ -216,7 +218,7 @@ TEST_F(Report, RunWithoutReferenceOrTrajectoryOrMap) {
   AddRelations(relations, message);
   fs::create_directories(folder_ / "run");
   Write("run/x_metrics.json", ToJson(message));
-  WritePage(LoadStudy({folder_ / "run"}, {}), {.title = "t", .command = "c", .file = folder_ / "out.html"});
+  WritePage(LoadStudy({folder_ / "run"}, {}), {.title = "t", .note = "", .command = "c", .file = folder_ / "out.html"});
   EXPECT_THAT(ReadPage(), HasSubstr("x: mean error 30.0 mm."));
   EXPECT_THAT(ReadPage(), HasSubstr("<td>relations</td>"));
 }
@@ -239,7 +241,7 @@ TEST_F(Report, BadInputIsNamed) {
   WriteRun("bad", "x", 0.1);
   Write("bad/x_tum.txt", "rubbish");
   const Study study = LoadStudy({folder_ / "bad"}, {});
-  EXPECT_THROW(WritePage(study, {.title = "", .command = "", .file = folder_ / "out.html"}), CommandError);
+  EXPECT_THROW(WritePage(study, {.title = "", .note = "", .command = "", .file = folder_ / "out.html"}), CommandError);
   EXPECT_NE((FailureRule{.max_mean_m = 0.0}).Validate(), "");
   EXPECT_NE((FailureRule{.min_coverage = 1.1}).Validate(), "");
 }
