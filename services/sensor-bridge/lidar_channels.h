@@ -7,6 +7,8 @@
 namespace lcmslam {
 
 inline constexpr const char* kMainLidarChannel = "LIDAR_2D";
+inline constexpr const char* kMultiLineChannel = "LIDAR_3D";
+inline constexpr const char* kImuChannel = "IMU";
 inline constexpr const char* kOdometryChannel = "ODOMETRY";
 inline constexpr const char* kGroundTruthChannel = "GROUND_TRUTH";
 

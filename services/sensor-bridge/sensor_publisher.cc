@@ -1,18 +1,37 @@
 #include "sensor-bridge/sensor_publisher.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include <fmt/format.h>
+#include <lcmslam/imu_t.hpp>
 #include <lcmslam/planar_scan_t.hpp>
+#include <lcmslam/point_cloud_chunk_t.hpp>
 #include <lcmslam/pose_t.hpp>
 #include <lcmslam/rigid_transform_t.hpp>
 
 #include "bus/messages.h"
 #include "bus/signals.h"
+#include "bus/sweep_chunks.h"
 #include "geometry/utime.h"
 
 namespace lcmslam {
 namespace {
 
 constexpr int64_t kMountingPeriodUs = 1'000'000;
+constexpr int64_t kUntimedSweepUs = 100'000;
+
+bool HasTimes(const Sweep& sweep) {
+  return std::ranges::any_of(sweep.points, [](const SweepPoint& p) { return p.dt_us != 0; });
+}
+
+// When its last point was measured; `has_times` says whether the sweep's points know that.
+int64_t TimeOf(const point_cloud_chunk_t& chunk, bool has_times) {
+  const int64_t chunks_after = chunk.num_chunks - 1 - chunk.chunk;
+  if (!has_times || chunk.time_offset.empty()) return chunk.utime - kUntimedSweepUs * chunks_after / chunk.num_chunks;
+  return chunk.utime + std::ranges::max(chunk.time_offset);
+}
 
 }  // namespace
 
@@ -24,6 +43,18 @@ void SensorPublisher::SetMounting(const std::string& lidar_channel, const Pose3&
 
 void SensorPublisher::PublishScan(const std::string& channel, const PlanarScan& scan) {
   Push(scan.utime, {Kind::kScan, channel, Encode(ToMessage(scan))});
+}
+
+void SensorPublisher::PublishSweep(const std::string& channel, const Sweep& sweep) {
+  const bool has_times = HasTimes(sweep);
+  for (const point_cloud_chunk_t& chunk : ToChunks(sweep, sweep_numbers_[channel]++)) {
+    const bool is_last = chunk.chunk + 1 == chunk.num_chunks;
+    Push(TimeOf(chunk, has_times), {Kind::kSweep, channel, Encode(chunk), is_last});
+  }
+}
+
+void SensorPublisher::PublishImu(const std::string& channel, const ImuSample& sample) {
+  Push(sample.utime, {Kind::kImu, channel, Encode(ToMessage(sample))});
 }
 
 void SensorPublisher::PublishPose(const std::string& channel, const StampedPose& pose) {
@@ -42,9 +73,10 @@ void SensorPublisher::Finish() {
 }
 
 std::string SensorPublisher::Summary() const {
+  constexpr auto kNouns = std::to_array<std::string_view>({"scans", "poses", "sweeps", "IMU samples"});  // by Kind
   std::string line;
   for (const auto& [channel, count] : counts_)
-    line += fmt::format("{} {} on {}, ", count.messages, count.kind == Kind::kScan ? "scans" : "poses", channel);
+    line += fmt::format("{} {} on {}, ", count.messages, kNouns[static_cast<size_t>(count.kind)], channel);
   if (invalid_poses_ > 0) line += fmt::format("{} invalid poses left out, ", invalid_poses_);
   if (order_.jumps() > 0) line += fmt::format("time jumped back {} times, ", order_.jumps());
   return fmt::format("{}{:.1f} s", line, static_cast<double>(duration_us_) / 1e6);
@@ -61,8 +93,14 @@ void SensorPublisher::Emit(int64_t utime, const Message& message) {
   last_utime_ = utime;
   PublishMounting(utime, message.channel);
   output_.Publish(utime, message.channel, Bytes(message.data));
+  if (!message.counts) return;
   ++counts_.try_emplace(message.channel, Count{message.kind}).first->second.messages;
-  if (message.kind == Kind::kScan && progress_) progress_->Show(++scans_published_);
+  ShowProgress(message.kind);
+}
+
+void SensorPublisher::ShowProgress(Kind kind) {
+  const bool is_scan = kind == Kind::kScan || kind == Kind::kSweep;
+  if (is_scan && progress_) progress_->Show(++scans_published_);
 }
 
 void SensorPublisher::PublishMounting(int64_t utime, const std::string& lidar_channel) {

@@ -8,7 +8,9 @@
 
 #include "bus/progress.h"
 #include "geometry/trajectory.h"
+#include "lidar/imu_sample.h"
 #include "lidar/planar_scan.h"
+#include "lidar/sweep.h"
 #include "sensor-bridge/bridge_output.h"
 #include "sensor-bridge/time_order.h"
 
@@ -19,13 +21,17 @@ class SensorPublisher {
  public:
   SensorPublisher(BridgeOutput& output, bool quiet) : output_(output), quiet_(quiet) {}
 
-  // From now on a progress bar shows how many of `scans` have been published.
+  // From now on a progress bar shows how many of `scans`, planar ones and sweeps, have been published.
   void ExpectScans(int64_t scans);
 
   // From now on rigid_transform_t goes out on <lidar_channel>_EXTRINSICS with the channel's first scan, then once a
   // second of data time.
   void SetMounting(const std::string& lidar_channel, const Pose3& T_body_sensor);
   void PublishScan(const std::string& channel, const PlanarScan& scan);
+  // In chunks, each at the time of its last point as a sensor would send it; where the points' times are unknown,
+  // spread over the 0.1 s before the sweep's stamp.
+  void PublishSweep(const std::string& channel, const Sweep& sweep);
+  void PublishImu(const std::string& channel, const ImuSample& sample);
   // What is no pose (not finite, no unit quaternion) is counted and left out.
   void PublishPose(const std::string& channel, const StampedPose& pose);
   // Publishes what is still held back for the order of stamps.
@@ -35,11 +41,12 @@ class SensorPublisher {
   std::string Summary() const;
 
  private:
-  enum class Kind { kScan, kPose };
+  enum class Kind { kScan, kPose, kSweep, kImu };
   struct Message {
     Kind kind;
     std::string channel;
     std::vector<uint8_t> data;
+    bool counts = true;  // not so the chunks of a sweep, except the last
   };
   struct Mounting {
     Pose3 T_body_sensor;
@@ -53,6 +60,7 @@ class SensorPublisher {
 
   void Push(int64_t utime, Message message);
   void Emit(int64_t utime, const Message& message);
+  void ShowProgress(Kind kind);
   void PublishMounting(int64_t utime, const std::string& lidar_channel);
 
   BridgeOutput& output_;
@@ -61,7 +69,8 @@ class SensorPublisher {
   uint64_t scans_published_ = 0;
   TimeOrder<Message> order_{2'000'000};
   std::map<std::string, Mounting> mountings_;
-  std::map<std::string, Count> counts_;  // by channel
+  std::map<std::string, Count> counts_;           // by channel
+  std::map<std::string, int32_t> sweep_numbers_;  // of the channel's next one
   int64_t invalid_poses_ = 0;
   int64_t duration_us_ = 0;
   int64_t last_utime_ = 0;

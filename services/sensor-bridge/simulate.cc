@@ -9,9 +9,22 @@
 #include "sensor-bridge/lidar_channels.h"
 
 namespace lcmslam {
+namespace {
 
-void PublishEpisode(const PlanarEpisode& episode, SensorPublisher& publisher,
-                    const std::function<void(const PlanarFrame&)>& on_frame) {
+std::optional<PoseBound> BoundOf(const PlanarFrame& frame) {
+  if (!frame.bound) return {};
+  return PoseBound{PositionBound(*frame.bound), std::sqrt((*frame.bound)(2, 2))};
+}
+
+std::optional<PoseBound> BoundOf(const SpatialFrame& frame) {
+  if (!frame.bound) return {};
+  const auto variances = frame.bound->diagonal();
+  return PoseBound{std::sqrt(variances.head<3>().sum()), std::sqrt(variances.tail<3>().sum())};
+}
+
+}  // namespace
+
+void PublishEpisode(const PlanarEpisode& episode, SensorPublisher& publisher, BoundSummary& bound) {
   publisher.SetMounting(kMainLidarChannel, ToPose3(episode.options().lidar.T_body_lidar));
   auto odometry = episode.odometry().begin();
   for (int i = 0; i < episode.num_frames() && !StopRequested(); ++i) {
@@ -21,22 +34,35 @@ void PublishEpisode(const PlanarEpisode& episode, SensorPublisher& publisher,
     }
     publisher.PublishPose(kGroundTruthChannel, {frame.scan.utime, ToPose3(frame.T_world_body)});
     publisher.PublishScan(kMainLidarChannel, frame.scan);
-    on_frame(frame);
+    bound.Add(frame.scan.utime, BoundOf(frame));
   }
 }
 
-void BoundSummary::Add(const PlanarFrame& frame) {
+void PublishEpisode(const SpatialEpisode& episode, SensorPublisher& publisher, BoundSummary& bound) {
+  publisher.SetMounting(kMultiLineChannel, episode.options().lidar.T_body_lidar);
+  auto imu = episode.imu().begin();
+  for (int i = 0; i < episode.num_frames() && !StopRequested(); ++i) {
+    const SpatialFrame frame = episode.Frame(i);
+    for (; imu != episode.imu().end() && imu->utime <= frame.sweep.utime; ++imu) {
+      publisher.PublishImu(kImuChannel, *imu);
+    }
+    publisher.PublishPose(kGroundTruthChannel, {frame.sweep.utime, frame.T_world_body});
+    publisher.PublishSweep(kMultiLineChannel, frame.sweep);
+    bound.Add(frame.sweep.utime, BoundOf(frame));
+  }
+}
+
+void BoundSummary::Add(int64_t utime, const std::optional<PoseBound>& bound) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const double position_m = frame.bound ? PositionBound(*frame.bound) : kNone;
-  const double yaw_rad = frame.bound ? std::sqrt((*frame.bound)(2, 2)) : kNone;
-  csv_ += fmt::format("{},{:.6g},{:.6g}\n", frame.scan.utime, position_m, yaw_rad);
-  if (!frame.bound) {
+  const PoseBound row = bound.value_or(PoseBound{kNone, kNone});
+  csv_ += fmt::format("{},{:.6g},{:.6g}\n", utime, row.position_m, row.rotation_rad);
+  if (!bound) {
     ++unbounded_;
     return;
   }
   ++bounded_;
-  sum_position_m_ += position_m;
-  sum_yaw_rad_ += yaw_rad;
+  sum_position_m_ += bound->position_m;
+  sum_rotation_rad_ += bound->rotation_rad;
 }
 
 std::string BoundSummary::Line() const {
@@ -44,7 +70,7 @@ std::string BoundSummary::Line() const {
   if (bounded_ == 0) return fmt::format("Cramer-Rao bound of one scan: none of {} fixes the pose", scans);
   const double count = static_cast<double>(bounded_);
   return fmt::format("Cramer-Rao bound of one scan: position {:.3f} mm, rotation {:.3f} mrad; mean of {}",
-                     1e3 * sum_position_m_ / count, 1e3 * sum_yaw_rad_ / count, bounded_) +
+                     1e3 * sum_position_m_ / count, 1e3 * sum_rotation_rad_ / count, bounded_) +
          (unbounded_ == 0 ? "" : fmt::format(" of {}, the rest do not fix the pose", scans));
 }
 

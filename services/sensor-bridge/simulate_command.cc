@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -42,7 +43,7 @@ ExitCode Simulate(const SimulateOptions& options) {
   LoadConfig(options.episode_file, config);
   for (const std::string& assignment : options.assignments) SetConfigField(assignment, config);
   if (options.seed) config.set_seed(*options.seed);
-  const PlanarEpisode episode = MakePlanarEpisode(config, std::filesystem::path(options.episode_file).parent_path());
+  const Episode episode = MakeEpisode(config, std::filesystem::path(options.episode_file).parent_path());
   if (options.print_config) {
     fmt::print("{}", ConfigText(config));
     return ExitCode::kOk;
@@ -51,9 +52,13 @@ ExitCode Simulate(const SimulateOptions& options) {
   CatchStopSignals();
   BridgeOutput output(options.output);
   SensorPublisher publisher(output, options.output.quiet);
-  publisher.ExpectScans(episode.num_frames());
   BoundSummary bound;
-  PublishEpisode(episode, publisher, [&](const PlanarFrame& frame) { bound.Add(frame); });
+  std::visit(
+      [&](const auto& any_episode) {
+        publisher.ExpectScans(any_episode.num_frames());
+        PublishEpisode(any_episode, publisher, bound);
+      },
+      episode);
   publisher.Finish();
   output.Finish();
   if (!options.bound_file.empty()) WriteBound(options.bound_file, bound);
@@ -66,7 +71,7 @@ ExitCode Simulate(const SimulateOptions& options) {
 
 void AddSimulateCommand(CLI::App& app, std::function<ExitCode()>& command) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* simulate = app.add_subcommand("simulate", "Drive a simulated robot through a simulated world");
+  CLI::App* simulate = app.add_subcommand("simulate", "Take a simulated lidar through a simulated world");
   simulate->add_option("--episode", options->episode_file, "Protocol Buffers text, see episode.proto")->required();
   simulate->add_option("--seed", options->seed, "instead of the episode's");
   simulate->add_option("--set", options->assignments, "path=value: set one field of the episode (repeatable)")

@@ -1,6 +1,7 @@
 #include "sensor-bridge/episode_config.h"
 
 #include <string>
+#include <variant>
 
 #include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>
@@ -26,7 +27,12 @@ config::Episode Parse(const std::string& text) {
 
 PlanarEpisode Make(const std::string& text, const std::filesystem::path& folder = {}) {
   config::Episode config = Parse(text);
-  return MakePlanarEpisode(config, folder);
+  return std::get<PlanarEpisode>(MakeEpisode(config, folder));
+}
+
+SpatialEpisode MakeSpatial(const std::string& text) {
+  config::Episode config = Parse(text);
+  return std::get<SpatialEpisode>(MakeEpisode(config, {}));
 }
 
 struct Refusal {
@@ -36,7 +42,8 @@ struct Refusal {
 
 Refusal RefusalOf(const std::string& text) {
   try {
-    (void)Make(text);
+    config::Episode config = Parse(text);
+    (void)MakeEpisode(config, {});
   } catch (const CommandError& error) {
     return {error.code(), error.what()};
   }
@@ -47,7 +54,7 @@ TEST(EpisodeConfig, UnsetMeansTheLibrarysDefault) {
   const PlanarEpisode episode = Make("");
   EXPECT_EQ(episode.world().walls().size(), Room5World().walls().size());
   config::Episode from_nothing;
-  (void)MakePlanarEpisode(from_nothing, {});
+  (void)MakeEpisode(from_nothing, {});
   EXPECT_EQ(from_nothing.duration_s(), PlanarEpisodeOptions{}.duration_s);
   EXPECT_EQ(from_nothing.planar().lidar().model().num_beams(), PlanarLidarOptions{}.model.num_beams);
   EXPECT_EQ(from_nothing.planar().drive().clearance_m(), PlanarDriveOptions{}.clearance_m);
@@ -56,12 +63,15 @@ TEST(EpisodeConfig, UnsetMeansTheLibrarysDefault) {
 }
 
 TEST(EpisodeConfig, EffectiveConfigurationReadsBackAsItself) {
-  config::Episode config = Parse("planar { world { box { x_m: 1 length_m: 9 width_m: 9 } } lidar { type: UTM_30LX } }");
-  (void)MakePlanarEpisode(config, {});
-  const std::string effective = ConfigText(config);
-  config::Episode again = Parse(effective);
-  (void)MakePlanarEpisode(again, {});
-  EXPECT_EQ(ConfigText(again), effective);
+  for (const char* text : {"planar { world { box { x_m: 1 length_m: 9 width_m: 9 } } lidar { type: UTM_30LX } }",
+                           "spatial { world { name: 'bare_room' } lidar { type: OS1_64 mounting { roll_rad: 1 } } }"}) {
+    config::Episode config = Parse(text);
+    (void)MakeEpisode(config, {});
+    const std::string effective = ConfigText(config);
+    config::Episode again = Parse(effective);
+    (void)MakeEpisode(again, {});
+    EXPECT_EQ(ConfigText(again), effective);
+  }
 }
 
 TEST(EpisodeConfig, TypesAndLevelsGiveDefaultsThatFieldsOverride) {
@@ -76,6 +86,50 @@ TEST(EpisodeConfig, TypesAndLevelsGiveDefaultsThatFieldsOverride) {
   EXPECT_EQ(lidar("noise_level: RATED").noise.relative_sigma, 0.03);
   EXPECT_EQ(lidar("noise_level: RATED noise { sigma_m: 0.02 }").noise.sigma_m, 0.02);
   EXPECT_EQ(lidar("mounting { x_m: 0.1 yaw_rad: 2 }").T_body_lidar.yaw(), 2.0);
+}
+
+TEST(EpisodeConfig, UnsetInSpaceMeansTheLibrarysDefault) {
+  config::Episode from_nothing = Parse("spatial {}");
+  (void)MakeEpisode(from_nothing, {});
+  EXPECT_EQ(from_nothing.spatial().world().name(), "hall10");
+  EXPECT_EQ(from_nothing.spatial().lidar().range_sigma_m(), MultiLineLidarOptions{}.range_sigma_m);
+  EXPECT_EQ(from_nothing.spatial().lidar().model().max_range_m(), VelodyneVlp16().max_range_m);
+  EXPECT_EQ(from_nothing.spatial().carrier().clearance_m(), SpatialCarrierOptions{}.clearance_m);
+  EXPECT_EQ(from_nothing.spatial().imu().rate_hz(), ImuOptions{}.rate_hz);
+  EXPECT_FALSE(from_nothing.has_planar());
+}
+
+TEST(EpisodeConfig, FieldsInSpaceArriveInTheEpisode) {
+  const SpatialEpisodeOptions options = MakeSpatial(R"(
+      seed: 9
+      duration_s: 3
+      spatial {
+        lidar { type: HDL_64E model { max_range_m: 7 } mounting { z_m: 0.1 yaw_rad: 1.5 } motion_distortion: false }
+        carrier { kind: MULTICOPTER max_turn_rate_radps: 2 start_in_motion: true }
+        imu { rate_hz: 100 gyroscope_bias_sigma_radps: 0 }
+      })")
+                                            .options();
+  EXPECT_EQ(options.seed, 9U);
+  EXPECT_EQ(options.lidar.model.lasers.size(), 64U);
+  EXPECT_EQ(options.lidar.model.max_range_m, 7.0);
+  EXPECT_EQ(options.lidar.T_body_lidar.translation.z(), 0.1);
+  EXPECT_NEAR(Yaw(options.lidar.T_body_lidar.rotation), 1.5, 1e-12);
+  EXPECT_FALSE(options.lidar.motion_distortion);
+  EXPECT_EQ(options.carrier.carrier, SpatialCarrier::kMulticopter);
+  EXPECT_EQ(options.carrier.max_turn_rate_radps, 2.0);
+  EXPECT_TRUE(options.carrier.start_in_motion);
+  EXPECT_EQ(options.imu.rate_hz, 100.0);
+  EXPECT_EQ(options.imu.gyroscope_bias_sigma_radps, 0.0);
+}
+
+TEST(EpisodeConfig, MultiLineLidarsHaveTheirModels) {
+  const auto num_lasers = [](const std::string& type) {
+    return MakeSpatial("spatial { lidar { type: " + type + " } }").options().lidar.model.lasers.size();
+  };
+  EXPECT_EQ(num_lasers("VLP_16"), 16U);
+  EXPECT_EQ(num_lasers("HDL_32E"), 32U);
+  EXPECT_EQ(num_lasers("HDL_64E"), 64U);
+  EXPECT_EQ(num_lasers("OS1_64"), 64U);
 }
 
 TEST(EpisodeConfig, WorldsAreAddedUp) {
@@ -124,6 +178,15 @@ TEST(EpisodeConfig, RefusalsNameTheField) {
       {"planar { drive { clearance_m: 4 } }", "planar.drive.clearance_m: "},
       {"planar { odometry { rate_hz: 1e5 } }", "planar.odometry.rate_hz: "},
       {"planar { people { count: 101 } }", "planar.people.count: "},
+      {"planar {} spatial {}", "spatial: "},
+      {"spatial {} duration_s: 0.05", "duration_s: "},
+      {"spatial { world { name: 'moon' } }", "spatial.world.name: "},
+      {"spatial { lidar { range_sigma_m: -1 } }", "spatial.lidar.range_sigma_m: "},
+      {"spatial { lidar { model { turn_s: 0 } } }", "spatial.lidar.model.turn_s: "},
+      {"spatial { lidar { mounting { roll_rad: nan } } }", "spatial.lidar.mounting.roll_rad: "},
+      {"spatial { carrier { max_tilt_rad: 2 } }", "spatial.carrier.max_tilt_rad: "},
+      {"spatial { carrier { clearance_m: 5 } }", "spatial.carrier.clearance_m: "},
+      {"spatial { imu { rate_hz: -1 } }", "spatial.imu.rate_hz: "},
   };
   for (const auto& [text, field] : cases) {
     const Refusal refusal = RefusalOf(text);

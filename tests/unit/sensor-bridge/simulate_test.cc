@@ -2,22 +2,14 @@
 
 #include "sensor-bridge/simulate.h"
 
-#include <fstream>
-#include <functional>
-#include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
-#include "bus/log_reader.h"
 #include "bus/messages.h"
-#include "common/command_line.h"
-#include "sensor-bridge/simulate_command.h"
 #include "simulation/planar_worlds.h"
-#include "support/temporary_file.h"
+#include "unit/sensor-bridge/simulated.h"
 
 namespace lcmslam {
 namespace {
@@ -38,47 +30,6 @@ PlanarEpisode SameEpisode() {
                                  .lidar = {.noise = RangeNoise::Low(), .T_body_lidar = Pose2(0.2, 0.0, 0.5)},
                                  .odometry = {.rate_hz = 20.0}});
 }
-
-std::string Bytes(const std::filesystem::path& path) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(path, std::ios::binary).rdbuf();
-  return bytes.str();
-}
-
-// What `simulate` makes of an episode file.
-struct Simulated {
-  int exit_code = 0;
-  std::string log;
-  std::vector<Event> events;
-  std::string standard_output;
-
-  explicit Simulated(const std::string& episode, const std::vector<std::string>& options = {}) {
-    const TemporaryFile episode_file(episode);
-    const TemporaryFile out;
-    std::vector<std::string> arguments{"sensor-bridge", "simulate",  "--episode",        episode_file.path(),
-                                       "--quiet",       "--log-out", out.path().string()};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    std::vector<char*> argv;
-    for (std::string& argument : arguments) argv.push_back(argument.data());
-    CLI::App app("test", "sensor-bridge");
-    std::function<ExitCode()> command;
-    AddSimulateCommand(app, command);
-    testing::internal::CaptureStdout();
-    exit_code = RunCommandLine(app, static_cast<int>(argv.size()), argv.data(), [&] { return command(); });
-    standard_output = testing::internal::GetCapturedStdout();
-    log = Bytes(out.path());
-    if (log.empty()) return;
-    LogReader reader(out.path());
-    for (Event event; reader.Next(event);) events.push_back(event);
-  }
-  std::vector<Event> On(const std::string& channel) const {
-    std::vector<Event> chosen;
-    for (const Event& event : events) {
-      if (event.channel == channel) chosen.push_back(event);
-    }
-    return chosen;
-  }
-};
 
 TEST(Simulate, PublishesScansAsSimulated) {
   const PlanarEpisode episode = SameEpisode();
@@ -149,28 +100,26 @@ TEST(Simulate, SaysTheCramerRaoBound) {
   const Simulated simulated(kEpisode, {"--bound", csv.path()});
   const PlanarEpisode episode = SameEpisode();
   BoundSummary expected;
-  for (int i = 0; i < episode.num_frames(); ++i) expected.Add(episode.Frame(i));
+  for (int i = 0; i < episode.num_frames(); ++i) {
+    const PlanarFrame frame = episode.Frame(i);
+    const Eigen::Vector3d sigma = frame.bound->diagonal().cwiseSqrt();
+    expected.Add(frame.scan.utime, PoseBound{sigma.head<2>().norm(), sigma.z()});
+  }
   EXPECT_EQ(simulated.standard_output, expected.Line() + "\n");
-  EXPECT_EQ(Bytes(csv.path()), expected.csv());
-}
-
-PlanarFrame FrameWithBound(int64_t utime, double x, double y, double yaw) {
-  return {.scan = {.utime = utime, .beams = {}},
-          .T_world_body = {},
-          .bound = Eigen::Vector3d(x * x, y * y, yaw * yaw).asDiagonal().toDenseMatrix()};
+  EXPECT_EQ(FileBytes(csv.path()), expected.csv());
 }
 
 TEST(BoundSummary, AveragesScansThatFixThePose) {
   BoundSummary bound;
   EXPECT_EQ(bound.Line(), "Cramer-Rao bound of one scan: none of 0 fixes the pose");
-  bound.Add(FrameWithBound(100, 0.003, 0.004, 0.001));
-  bound.Add(FrameWithBound(200, 0.006, 0.008, 0.002));
+  bound.Add(100, PoseBound{0.005, 0.001});
+  bound.Add(200, PoseBound{0.010, 0.002});
   EXPECT_EQ(bound.Line(), "Cramer-Rao bound of one scan: position 7.500 mm, rotation 1.500 mrad; mean of 2");
-  bound.Add({.scan = {.utime = 300, .beams = {}}, .T_world_body = {}, .bound = {}});
+  bound.Add(300, {});
   EXPECT_EQ(bound.Line(),
             "Cramer-Rao bound of one scan: position 7.500 mm, rotation 1.500 mrad; mean of 2 of 3, the rest do not fix "
             "the pose");
-  EXPECT_EQ(bound.csv(), "utime_us,position_m,yaw_rad\n100,0.005,0.001\n200,0.01,0.002\n300,inf,inf\n");
+  EXPECT_EQ(bound.csv(), "utime_us,position_m,rotation_rad\n100,0.005,0.001\n200,0.01,0.002\n300,inf,inf\n");
 }
 
 TEST(Simulate, PrintsTheEffectiveEpisode) {
@@ -185,6 +134,7 @@ TEST(Simulate, RefusesBadEpisodes) {
   EXPECT_EQ(Simulated("frobnicate: 1").exit_code, 2);
   EXPECT_EQ(Simulated("seed: 1 seed: 2").exit_code, 2);
   EXPECT_EQ(Simulated("duration_s: nan").exit_code, 2);
+  EXPECT_EQ(Simulated("planar {} spatial {}").exit_code, 2);
   EXPECT_EQ(Simulated("", {"--seed", "-3"}).exit_code, 2);
   EXPECT_EQ(Simulated("planar { world { map: 'none.yaml' } }").exit_code, 3);
   EXPECT_EQ(Simulated("duration_s: 1", {"--bound", "/nowhere/bound.csv"}).exit_code, 1);
@@ -195,9 +145,10 @@ TEST(Simulate, EveryShippedEpisodeRuns) {
   for (const auto& entry : std::filesystem::directory_iterator(LCMSLAM_SOURCE_DIR "/replay/episodes")) {
     if (entry.path().extension() != ".pbtxt") continue;
     SCOPED_TRACE(entry.path());
-    const Simulated simulated(Bytes(entry.path()), {"--set", "duration_s=2"});
+    const Simulated simulated(FileBytes(entry.path()), {"--set", "duration_s=0.5"});
     EXPECT_EQ(simulated.exit_code, 0);
-    EXPECT_FALSE(simulated.On("LIDAR_2D").empty());
+    EXPECT_FALSE(simulated.On("GROUND_TRUTH").empty());
+    EXPECT_NE(simulated.On("LIDAR_2D").empty(), simulated.On("LIDAR_3D").empty());
     ++files;
   }
   EXPECT_GT(files, 5);

@@ -8,7 +8,7 @@
 
 namespace lcmslam {
 
-// The world that the field planar.world of an episode describes; see MakePlanarEpisode.
+// The world that the field planar.world of an episode describes; see MakeEpisode.
 [[nodiscard]] PlanarWorld MakePlanarWorld(config::Episode::World& config, const std::filesystem::path& folder,
                                           uint64_t seed);
 

@@ -1,4 +1,4 @@
-#include "sensor-bridge/episode_world.h"
+#include "sensor-bridge/planar_episode_world.h"
 
 #include <cmath>
 #include <optional>
