@@ -38,6 +38,8 @@ class Health {
   void SetDropped(int64_t messages) { dropped_ = messages; }
   // A periodic input was accepted: looks for gaps, remembers the stamp.
   void NoteInput(std::string_view channel, int64_t utime);
+  // The same for an input whose gaps are counted elsewhere.
+  void NoteStamp(int64_t utime) { input_utime_ = utime; }
   void NoteLatency(double latency_ms, double busy_ms);
   void SetText(std::string text) { text_ = std::move(text); }
 

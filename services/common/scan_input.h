@@ -1,11 +1,10 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "bus/service.h"
+#include "common/mounting_gate.h"
 #include "geometry/pose2.h"
 #include "lidar/planar_scan.h"
 
@@ -15,8 +14,7 @@ namespace lcmslam {
 //
 // Channel: the configured one; when that is "", LIDAR_2D or, if a scan comes from another channel first, that one.
 // Channels LIDAR_2D_... are further lidars of the same robot and are taken only by name.
-// Mounting: the configured pose, else what arrives on <channel>_EXTRINSICS. Scans wait for that up to 1.5 s of their
-// own time, then the lidar is taken to sit at the body's origin.
+// Mounting: the configured pose, else what arrives on <channel>_EXTRINSICS, for which scans wait (MountingGate).
 class ScanInput {
  public:
   using ScanHandler = std::function<void(const PlanarScan&)>;
@@ -28,7 +26,7 @@ class ScanInput {
   // Takes events of every channel.
   Handled Offer(const Event& event);
   // No more events: hands over what still waits.
-  void Flush();
+  void Flush() { gate_.Flush(); }
 
   // "" until the first scan.
   const std::string& channel() const { return channel_; }
@@ -36,14 +34,10 @@ class ScanInput {
  private:
   bool Adopt(const Event& event);
   Handled OfferExtrinsics(const Event& event);
-  void SettleMounting(const Pose2& T_body_lidar);
 
   std::string channel_;
   bool automatic_;
-  bool mounting_known_;
-  MountingHandler on_mounting_;
-  ScanHandler on_scan_;
-  std::vector<PlanarScan> waiting_;
+  MountingGate<PlanarScan> gate_;
 };
 
 }  // namespace lcmslam

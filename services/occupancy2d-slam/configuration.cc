@@ -1,6 +1,6 @@
 #include "occupancy2d-slam/configuration.h"
 
-#include "common/planar_slam_config.h"
+#include "common/slam_config.h"
 #include "occupancy2d-slam/occupancy2d_slam.h"
 #include "occupancy2d-slam/occupancy2d_slam.pb.h"
 

@@ -2,7 +2,7 @@
 
 #include <lcmslam/slam_diagnostics_t.hpp>
 
-#include "common/planar_diagnostics.h"
+#include "common/diagnostics.h"
 
 namespace lcmslam {
 namespace {

@@ -1,6 +1,6 @@
 #include "sdf2d-slam/configuration.h"
 
-#include "common/planar_slam_config.h"
+#include "common/slam_config.h"
 #include "sdf2d-slam/sdf2d_slam.h"
 #include "sdf2d-slam/sdf2d_slam.pb.h"
 

@@ -6,7 +6,7 @@
 #include <lcmslam/sdf_tile_t.hpp>
 #include <lcmslam/slam_diagnostics_t.hpp>
 
-#include "common/planar_diagnostics.h"
+#include "common/diagnostics.h"
 #include "sdf2d-slam/sdf2d_slam.h"
 #include "sdf2d/map_file.h"
 #include "sdf2d/occupancy.h"

@@ -8,8 +8,8 @@ namespace lcmslam {
 
 class slam_diagnostics_t;
 
-// x, y, yaw; map axes.
-void SetCovariance(const Eigen::Matrix3d& covariance, slam_diagnostics_t& diagnostics);
+// Square: x, y, yaw or translation, rotation; map axes.
+void SetCovariance(const Eigen::Ref<const Eigen::MatrixXd>& covariance, slam_diagnostics_t& diagnostics);
 
 // As many names as times.
 void SetStages(std::span<const char* const> names, std::span<const double> ms, slam_diagnostics_t& diagnostics);

@@ -1,4 +1,4 @@
-#include "common/planar_diagnostics.h"
+#include "common/diagnostics.h"
 
 #include <chrono>
 
@@ -6,10 +6,11 @@
 
 namespace lcmslam {
 
-void SetCovariance(const Eigen::Matrix3d& covariance, slam_diagnostics_t& diagnostics) {
-  diagnostics.dof = 3;
-  diagnostics.num_covariance = 9;
-  diagnostics.covariance.assign(covariance.data(), covariance.data() + 9);
+void SetCovariance(const Eigen::Ref<const Eigen::MatrixXd>& covariance, slam_diagnostics_t& diagnostics) {
+  diagnostics.dof = static_cast<int16_t>(covariance.rows());
+  diagnostics.num_covariance = static_cast<int16_t>(covariance.size());
+  const auto by_row = covariance.transpose().reshaped();
+  diagnostics.covariance.assign(by_row.begin(), by_row.end());
 }
 
 void SetStages(std::span<const char* const> names, std::span<const double> ms, slam_diagnostics_t& diagnostics) {
