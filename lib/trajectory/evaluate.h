@@ -59,8 +59,7 @@ struct Evaluation {
 [[nodiscard]] Evaluation EvaluatePairs(Association association, AlignmentKind kind, const EvaluationOptions& options);
 
 // Associates, aligns and measures (algorithms as named in the headers above). Poses are finite, stamps strictly
-// increasing. Pure; linear in the number of poses.
-[[nodiscard]] Evaluation Evaluate(std::span<const StampedPose> estimate, std::span<const StampedPose> reference,
-                                  const EvaluationOptions& options = {});
+// increasing. Pure; linear in the number of poses. Trajectories that are moved in are freed once they are associated.
+[[nodiscard]] Evaluation Evaluate(Trajectory estimate, Trajectory reference, const EvaluationOptions& options = {});
 
 }  // namespace lcmslam

@@ -4,18 +4,26 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace lcmslam {
 namespace {
 
+// from^-1 * to, without a normalisation that nothing here needs: this runs many times a pose.
+Pose3 Motion(const Pose3& from, const Pose3& to) {
+  const Eigen::Quaterniond to_body = from.rotation.conjugate();
+  return {to_body * (to.translation - from.translation), to_body * to.rotation};
+}
+
 // The motion from pair `from` to pair `to`, as the reference has it and as the estimate has it.
 void AddRelative(const PosePair& from, const PosePair& to, PoseErrors& errors) {
-  errors.Add(from.reference.inverse() * to.reference, from.estimate.inverse() * to.estimate);
+  errors.Add(Motion(from.reference, to.reference), Motion(from.estimate, to.estimate));
 }
 
 // `position` never decreases: time or path length of each pair.
 PoseErrors RelativeErrors(std::span<const PosePair> pairs, std::span<const double> position, double step) {
   PoseErrors errors;
+  errors.Reserve(pairs.size());
   size_t j = 0;
   for (size_t i = 0; i + 1 < pairs.size(); ++i) {
     const double goal = position[i] + step;
@@ -35,10 +43,14 @@ void PoseErrors::Add(const Pose3& reference, const Pose3& estimate) {
   rotation_rad.push_back(AngleBetween(reference.rotation, estimate.rotation));
 }
 
+void PoseErrors::Reserve(size_t count) {
+  translation_m.reserve(count);
+  rotation_rad.reserve(count);
+}
+
 PoseErrors AbsoluteErrors(std::span<const PosePair> pairs) {
   PoseErrors errors;
-  errors.translation_m.reserve(pairs.size());
-  errors.rotation_rad.reserve(pairs.size());
+  errors.Reserve(pairs.size());
   for (const PosePair& pair : pairs) errors.Add(pair.reference, pair.estimate);
   return errors;
 }
@@ -66,18 +78,17 @@ KittiErrors KittiSegmentErrors(std::span<const PosePair> pairs) {
   constexpr std::array<double, 8> kLengths_m = {100, 200, 300, 400, 500, 600, 700, 800};
   constexpr size_t kStride = 10;
   const std::vector<double> position = PathLengths(pairs);
-  KittiErrors errors;
+  PoseErrors errors;
   for (size_t first = 0; first < pairs.size(); first += kStride) {
     for (const double length_m : kLengths_m) {
       const auto last = std::upper_bound(position.begin(), position.end(), position[first] + length_m);
       if (last == position.end()) break;
-      PoseErrors segment;
-      AddRelative(pairs[first], pairs[static_cast<size_t>(last - position.begin())], segment);
-      errors.translation_ratio.push_back(segment.translation_m[0] / length_m);
-      errors.rotation_rad_per_m.push_back(segment.rotation_rad[0] / length_m);
+      AddRelative(pairs[first], pairs[static_cast<size_t>(last - position.begin())], errors);
+      errors.translation_m.back() /= length_m;
+      errors.rotation_rad.back() /= length_m;
     }
   }
-  return errors;
+  return {std::move(errors.translation_m), std::move(errors.rotation_rad)};
 }
 
 Drift DriftPerMetre(std::span<const PosePair> pairs) {

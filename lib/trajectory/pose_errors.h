@@ -13,6 +13,7 @@ struct PoseErrors {
   std::vector<double> translation_m;
   std::vector<double> rotation_rad;  // angle of the rotation between, in [0, pi]
 
+  void Reserve(size_t count);
   void Add(const Pose3& reference, const Pose3& estimate);
 };
 

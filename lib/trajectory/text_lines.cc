@@ -11,15 +11,16 @@
 namespace lcmslam {
 namespace {
 
-constexpr std::string_view kSeparators = " \t,\r";
 constexpr size_t kMaxLineBytes = 65536;  // longer "lines" are binary rubbish
+
+bool IsSeparator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
 
 void Split(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
-  for (size_t begin = line.find_first_not_of(kSeparators); begin != std::string_view::npos;) {
-    const size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
-    fields.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kSeparators, end);
+  for (auto begin = std::ranges::find_if_not(line, IsSeparator); begin != line.end();) {
+    const auto end = std::find_if(begin, line.end(), IsSeparator);
+    fields.emplace_back(begin, end);
+    begin = std::find_if_not(end, line.end(), IsSeparator);
   }
 }
 
@@ -41,10 +42,8 @@ bool TextLines::Next() {
   while (file_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()))) {
     ++number_;
     line_ = buffer_.data();
-    const size_t first = line_.find_first_not_of(kSeparators);
-    if (first == std::string_view::npos || line_[first] == '#') continue;
     Split(line_, fields_);
-    return true;
+    if (!fields_.empty() && !fields_.front().starts_with('#')) return true;
   }
   if (file_.eof()) return false;
   ++number_;

@@ -88,11 +88,14 @@ std::string Span(const PoseSource& source) {
                      static_cast<double>(source.trajectory.back().utime) * 1e-6);
 }
 
-Evaluation EvaluateSources(const PoseSources& sources, const EvaluationOptions& options) {
-  Evaluation evaluation = Evaluate(sources.estimate.trajectory, sources.reference.trajectory, options);
+// Takes the trajectories out of the sources, which may be large.
+Evaluation EvaluateSources(PoseSources& sources, const EvaluationOptions& options) {
+  const std::string estimate_span = Span(sources.estimate), reference_span = Span(sources.reference);
+  Evaluation evaluation =
+      Evaluate(std::move(sources.estimate.trajectory), std::move(sources.reference.trajectory), options);
   if (evaluation.status == EvaluationStatus::kNothingMatched) {
-    throw CommandError(ExitCode::kNothingMatched, fmt::format("no pose of {} has a partner in {}",
-                                                              Span(sources.estimate), Span(sources.reference)));
+    throw CommandError(ExitCode::kNothingMatched,
+                       fmt::format("no pose of {} has a partner in {}", estimate_span, reference_span));
   }
   if (evaluation.status == EvaluationStatus::kCalibrationFailed) {
     const bool too_few = evaluation.calibration->status == CalibrationStatus::kTooFewPairs;
@@ -121,14 +124,14 @@ ExitCode EvaluateRecording(const EvaluateArguments& arguments, const EvaluatorOp
   result::Evaluation message;
   message.set_command(arguments.command);
   AddSource(sources.estimate, *message.mutable_estimate());
-  if (!sources.reference.trajectory.empty()) {
-    AddSource(sources.reference, *message.mutable_reference());
-    AddEvaluation(EvaluateSources(sources, options.evaluation), options.evaluation, message);
-  }
   if (!arguments.relations.empty()) {
     AddRelations(EvaluateRelationFile(sources.estimate, arguments.relations, options.evaluation,
                                       *message.mutable_relation_file()),
                  message);
+  }
+  if (!sources.reference.trajectory.empty()) {
+    AddSource(sources.reference, *message.mutable_reference());
+    AddEvaluation(EvaluateSources(sources, options.evaluation), options.evaluation, message);
   }
   if (result::Timing timing; sources.timing.Report(sources.estimate.channel, timing)) {
     *message.mutable_timing() = std::move(timing);
