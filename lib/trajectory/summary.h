@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace lcmslam {
 
@@ -20,7 +21,7 @@ struct Summary {
 };
 
 // Values must be finite. O(n).
-[[nodiscard]] Summary Summarize(std::span<const double> values);
+[[nodiscard]] Summary Summarize(std::vector<double> values);
 
 // The value below which `fraction` (0 to 1) of the values lie, linear between order statistics (Hyndman & Fan 1996,
 // type 7, the default of NumPy and R). NaN for no values. O(n).
