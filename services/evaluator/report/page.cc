@@ -7,8 +7,8 @@
 
 #include "bus/errors.h"
 #include "evaluator/report/encodings.h"
+#include "evaluator/report/overview.h"
 #include "evaluator/report/section.h"
-#include "evaluator/report/study_tables.h"
 #include "evaluator/report/style.h"
 #include "evaluator/report/table.h"
 
@@ -152,9 +152,10 @@ void WritePage(const Study& study, const PageOptions& options) {
       "<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
       EscapeHtml(options.title), kStyleSheet);
   if (!options.note.empty()) html += fmt::format("<p>{}</p>\n", EscapeHtml(options.note));
-  const Table overview = OverviewTable(study);
-  WriteFile(folder / "overview.csv", ToCsv(overview));
-  if (study.groups.size() > 1) html += ToHtml(overview);
+  for (const Table& table : {MedianTable(study), OverviewTable(study)}) {
+    WriteFile(folder / (table.name + ".csv"), ToCsv(table));
+    if (study.groups.size() > 1) html += ToHtml(table);
+  }
   for (const Section& section : sections) html += SectionHtml(section, svgs);
   html += MethodHtml(study, options);
   html += ConfigurationsHtml(study);

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "common/config.h"
+#include "evaluator/report/overview.h"
 #include "evaluator/report/page.h"
-#include "evaluator/report/study_tables.h"
 
 namespace lcmslam::report {
 namespace {
@@ -43,7 +43,7 @@ void AddReportCommand(CLI::App& app, const std::string& typed, std::function<Exi
       const Study study = LoadStudy(arguments->folders, arguments->failure);
       if (arguments->page.title.empty()) arguments->page.title = DefaultTitle(study);
       WritePage(study, arguments->page);
-      fmt::print("{}", ToText(OverviewTable(study)));
+      fmt::print("{}\n{}", ToText(OverviewTable(study)), ToText(MedianTable(study)));
       return ExitCode::kOk;
     };
   });

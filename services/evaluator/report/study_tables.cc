@@ -1,67 +1,11 @@
 #include "evaluator/report/study_tables.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include <fmt/format.h>
 
 #include "evaluator/report/numbers.h"
-#include "trajectory/summary.h"
 
 namespace lcmslam::report {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// Median and the like where some values are infinite.
-double Ranked(const std::vector<double>& sorted, double fraction) {
-  if (sorted.empty()) return kNaN;
-  const double rank = fraction * static_cast<double>(sorted.size() - 1);
-  const size_t below = static_cast<size_t>(rank), above = std::min(below + 1, sorted.size() - 1);
-  const double weight = rank - static_cast<double>(below);
-  if (weight == 0.0 || sorted[below] == sorted[above]) return sorted[below];
-  return sorted[below] + weight * (sorted[above] - sorted[below]);
-}
-
-template <typename Value>
-std::vector<double> OverEpisodes(const Group& group, const std::string& system, Value value) {
-  std::vector<double> values;
-  for (const Episode& episode : group.episodes) values.push_back(value(episode.runs.at(system)));
-  return values;
-}
-
-double MedianOfKnown(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return std::isnan(v); });
-  return Percentile(values, 0.5);
-}
-
-double Coverage(const Run& run) {
-  if (run.metrics.has_absolute()) return run.metrics.association().coverage();
-  const auto& relations = run.metrics.relations();
-  return static_cast<double>(relations.matched()) / static_cast<double>(relations.matched() + relations.unmatched());
-}
-
-// Median over the episodes that know it of one figure of the time of a scan, ms.
-double StepMs(const Group& group, const std::string& system, double (result::Summary::*figure)() const) {
-  return MedianOfKnown(OverEpisodes(group, system, [&](const Run& run) {
-    return run.metrics.timing().has_step_ms() ? (run.metrics.timing().step_ms().*figure)() : kNaN;
-  }));
-}
-
-// Median over the episodes that have a bound of error over bound; failed ones rank worst.
-double OverBound(const Group& group, const std::string& system, double (result::Summary::*error)() const,
-                 double Bound::*bound) {
-  std::vector<double> ratios;
-  for (const Episode& episode : group.episodes) {
-    const Run& run = episode.runs.at(system);
-    if (!(episode.bound.*bound > 0.0)) continue;
-    ratios.push_back(run.failure.empty() ? (ErrorOf(run).translation_m().*error)() / (episode.bound.*bound)
-                                         : std::numeric_limits<double>::infinity());
-  }
-  std::ranges::sort(ratios);
-  return Ranked(ratios, 0.5);
-}
 
 void AddErrorRow(Table& table, const std::string& system, const std::string& what, const result::PoseError& error) {
   const auto& t = error.translation_m();
@@ -78,30 +22,6 @@ void AddRatioRow(Table& table, const std::string& system, const std::string& oth
 }
 
 }  // namespace
-
-EpisodeSummary SummarizeEpisodes(std::vector<double> errors) {
-  std::ranges::sort(errors);
-  const auto failed = std::ranges::find_if(errors, [](double e) { return std::isinf(e); });
-  const Summary completed = Summarize({errors.begin(), failed});
-  const auto n = static_cast<double>(completed.count);
-  EpisodeSummary summary;
-  summary.episodes = static_cast<int64_t>(errors.size());
-  summary.completed = completed.count;
-  summary.mean = completed.mean;
-  summary.sd = n > 1 ? completed.sd * std::sqrt(n / (n - 1.0)) : kNaN;
-  summary.median = Ranked(errors, 0.5);
-  summary.p95 = Ranked(errors, 0.95);
-  summary.max = Ranked(errors, 1.0);
-  return summary;
-}
-
-std::vector<double> TranslationErrors(const Group& group, const std::string& system) {
-  return OverEpisodes(group, system, TranslationError);
-}
-
-std::vector<double> RotationErrors(const Group& group, const std::string& system) {
-  return OverEpisodes(group, system, RotationError);
-}
 
 std::vector<Comparison> CompareSystems(const Study& study, const Group& group) {
   std::vector<Comparison> comparisons;
@@ -134,39 +54,13 @@ Table SystemsTable(const Study& study, const Group& group) {
   for (const std::string& system : study.systems) {
     const EpisodeSummary s = SummarizeEpisodes(TranslationErrors(group, system));
     const EpisodeSummary r = SummarizeEpisodes(RotationErrors(group, system));
-    table.rows.push_back(
-        {system, fmt::format("{} of {}", s.completed, s.episodes), Millimetres(s.mean), Millimetres(s.median),
-         Millimetres(s.sd), Millimetres(s.p95), Millimetres(s.max), Milliradians(r.mean), Degrees(r.mean),
-         Percent(MedianOfKnown(OverEpisodes(group, system, Coverage))),
-         Number(OverBound(group, system, &result::Summary::rmse, &Bound::rms_m)),
-         Number(StepMs(group, system, &result::Summary::median)), Number(StepMs(group, system, &result::Summary::p95)),
-         Number(StepMs(group, system, &result::Summary::p99))});
-  }
-  return table;
-}
-
-Table OverviewTable(const Study& study) {
-  Table table;
-  table.name = "overview";
-  table.caption = fmt::format(
-      "Mean position error of each episode, summed up over episodes; failed: mean error above {:g} m or coverage below "
-      "{:g} %. Mean and SD (n - 1) over completed episodes; in the median failed ones rank worst. Ratios: over {}. "
-      "Mean / bound: mean error over the mean of the scans' Cramer-Rao bounds, median over episodes.",
-      study.failure_rule.max_mean_m, 100.0 * study.failure_rule.min_coverage, study.systems.front());
-  table.header = {"episodes",     "system",   "completed",    "mean [mm]",   "median [mm]", "SD [mm]", "mean ratio",
-                  "median ratio", "SD ratio", "mean / bound", "median [ms]", "p95 [ms]",    "p99 [ms]"};
-  table.text_columns = 2;
-  for (const Group& group : study.groups) {
-    const EpisodeSummary first = SummarizeEpisodes(TranslationErrors(group, study.systems.front()));
-    for (const std::string& system : study.systems) {
-      const EpisodeSummary s = SummarizeEpisodes(TranslationErrors(group, system));
-      table.rows.push_back(
-          {group.name, system, fmt::format("{}/{}", s.completed, s.episodes), Millimetres(s.mean),
-           Millimetres(s.median), Millimetres(s.sd), Number(s.mean / first.mean), Number(s.median / first.median),
-           Number(s.sd / first.sd), Number(OverBound(group, system, &result::Summary::mean, &Bound::mean_m)),
-           Number(StepMs(group, system, &result::Summary::median)),
-           Number(StepMs(group, system, &result::Summary::p95)), Number(StepMs(group, system, &result::Summary::p99))});
-    }
+    table.rows.push_back({system, fmt::format("{} of {}", s.completed, s.episodes), Millimetres(s.mean),
+                          Millimetres(s.median), Millimetres(s.sd), Millimetres(s.p95), Millimetres(s.max),
+                          Milliradians(r.mean), Degrees(r.mean), Percent(MedianCoverage(group, system)),
+                          Number(MedianOverBound(group, system, &result::Summary::rmse, &Bound::rms_m)),
+                          Number(MedianStepMs(group, system, &result::Summary::median)),
+                          Number(MedianStepMs(group, system, &result::Summary::p95)),
+                          Number(MedianStepMs(group, system, &result::Summary::p99))});
   }
   return table;
 }

@@ -3,24 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "evaluator/report/episode_statistics.h"
 #include "evaluator/report/study.h"
 #include "evaluator/report/table.h"
 #include "trajectory/paired_statistics.h"
 
 namespace lcmslam::report {
-
-// What is said of the mean error of each episode. Failed episodes rank worst in median, p95 and max and are left out of
-// mean and SD only, where a number does not exist.
-struct EpisodeSummary {
-  int64_t episodes = 0, completed = 0;
-  double mean = 0.0, sd = 0.0;  // over completed episodes; SD divides by n - 1
-  double median = 0.0, p95 = 0.0, max = 0.0;
-};
-EpisodeSummary SummarizeEpisodes(std::vector<double> errors);
-
-// Of each episode, in order; infinite when failed.
-std::vector<double> TranslationErrors(const Group& group, const std::string& system);
-std::vector<double> RotationErrors(const Group& group, const std::string& system);
 
 // The first system against one of the others, in one kind of error.
 struct Comparison {
@@ -30,8 +18,6 @@ struct Comparison {
 };
 std::vector<Comparison> CompareSystems(const Study& study, const Group& group);
 
-// One row for every group and system: the thesis' Tab. 4.1.
-Table OverviewTable(const Study& study);
 // Completion, error over episodes, coverage, time.
 Table SystemsTable(const Study& study, const Group& group);
 // The thesis' form: mean, median, SD of two systems with both ratios.

@@ -11,6 +11,7 @@
 #include "evaluator/report/encodings.h"
 #include "evaluator/report/map_image.h"
 #include "evaluator/report/numbers.h"
+#include "evaluator/report/overview.h"
 #include "evaluator/report/page.h"
 #include "evaluator/report/study.h"
 #include "evaluator/report/study_tables.h"
@@ -112,6 +113,14 @@ TEST_F(Report, FailuresAreNeverDropped) {
   const auto comparisons = CompareSystems(study, group);
   ASSERT_EQ(comparisons.size(), 2u);
   EXPECT_EQ(comparisons[0].paired.wins_a, 4);
+}
+
+TEST_F(Report, MediansOfGroupsSideBySide) {
+  for (const char* episode : {"g/1", "g/2", "g/3", "h/1"}) WriteRun(episode, "a", 0.02);
+  for (const char* episode : {"g/1", "g/2", "h/1"}) WriteRun(episode, "b", 0.04);
+  const Table table = MedianTable(LoadStudy({folder_ / "g", folder_ / "h"}, {}));
+  EXPECT_THAT(table.header, ElementsAre("system", "g", "h"));
+  EXPECT_THAT(table.rows, ElementsAre(ElementsAre("a", "20.0", "20.0"), ElementsAre("b", "40.0 (1 of 3)", "40.0")));
 }
 
 TEST(SummarizeEpisodes, RanksFailuresWorst) {
