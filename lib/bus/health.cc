@@ -21,6 +21,21 @@ double ResidentMegabytes() {
   return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
+// Datagrams this host has dropped since it started because a socket's buffer was full (RcvbufErrors of /proc/net/snmp);
+// 0 where unknown.
+int64_t KernelDroppedDatagrams() {
+  std::ifstream snmp("/proc/net/snmp");
+  std::string names, values;
+  while (std::getline(snmp, names) && std::getline(snmp, values)) {
+    if (!names.starts_with("Udp:")) continue;
+    std::istringstream name(names), value(values);
+    for (std::string n, v; name >> n && value >> v;) {
+      if (n == "RcvbufErrors") return std::stoll(v);
+    }
+  }
+  return 0;
+}
+
 // The q-quantile by nearest rank; `values` sorted.
 float Quantile(const std::vector<double>& values, double q) {
   if (values.empty()) return 0.0F;
@@ -29,6 +44,8 @@ float Quantile(const std::vector<double>& values, double q) {
 }
 
 }  // namespace
+
+Health::Health(std::string name) : name_(std::move(name)), kernel_dropped_before_(KernelDroppedDatagrams()) {}
 
 int64_t GapCounter::Missing(int64_t utime) {
   const int64_t step_us = UtimeDifference(utime, last_utime_);
@@ -45,6 +62,7 @@ int64_t GapCounter::Missing(int64_t utime) {
     missing = std::max<int64_t>(0, std::llround(static_cast<double>(step_us) / period_us) - 1);
   }
   periods_us_[seen_++ % kWindow] = step_us;
+  total_ += missing;
   return missing;
 }
 
@@ -60,12 +78,28 @@ void Health::NoteLatency(double latency_ms, double busy_ms) {
   busy_ms_ += busy_ms;
 }
 
+bool Health::IsStarved() const { return processed_ == 0 || silent_reports_ > 0; }
+
 int8_t Health::State() const {
-  if (processed_ == 0) return service_status_t::WAITING;
+  if (IsStarved()) return service_status_t::WAITING;
   return dropped_ + refused_ + missing_ > reported_loss_ ? service_status_t::DEGRADED : service_status_t::OK;
 }
 
+std::string Health::MissingByChannel() const {
+  std::string list;
+  for (const auto& [channel, gaps] : gaps_) {
+    if (gaps.total() > 0) list += fmt::format("{}{} missing on {}", list.empty() ? "" : ", ", gaps.total(), channel);
+  }
+  return list;
+}
+
+std::string Health::Complaint() const {
+  if (silent_reports_ > 0) return fmt::format("no input for {} s", silent_reports_);
+  return MissingByChannel();
+}
+
 service_status_t Health::Report(int64_t utime, bool wall_clock) {
+  silent_reports_ = wall_clock && input_utime_ != 0 && input_utime_ == reported_input_utime_ ? silent_reports_ + 1 : 0;
   service_status_t status{};
   status.utime = utime;
   status.input_utime = input_utime_;
@@ -76,7 +110,8 @@ service_status_t Health::Report(int64_t utime, bool wall_clock) {
   status.missing = missing_;
   status.state = State();
   status.name = name_;
-  status.text = text_;
+  const std::string complaint = Complaint();
+  status.text = text_.empty() || complaint.empty() ? text_ + complaint : complaint + "; " + text_;
   if (wall_clock) {
     std::ranges::sort(latencies_ms_);
     status.latency_p50_ms = Quantile(latencies_ms_, 0.50);
@@ -86,7 +121,7 @@ service_status_t Health::Report(int64_t utime, bool wall_clock) {
     const bool comparable = reported_input_utime_ > 0 && input_ms > 0.0 && busy_ms_ > 0.0;
     status.real_time_factor = comparable ? static_cast<float>(input_ms / busy_ms_) : 0.0F;
     status.rss_mb = static_cast<float>(ResidentMegabytes());
-    status.kernel_dropped = KernelDroppedDatagrams();
+    status.kernel_dropped = KernelDroppedDatagrams() - kernel_dropped_before_;
   }
   reported_loss_ = dropped_ + refused_ + missing_;
   reported_input_utime_ = input_utime_;
@@ -99,21 +134,12 @@ std::string Health::Summary() const {
   std::string line = fmt::format("{}: {} received, {} processed", name_, received_, processed_);
   if (dropped_ > 0) line += fmt::format(", {} dropped", dropped_);
   if (refused_ > 0) line += fmt::format(", {} refused", refused_);
-  if (missing_ > 0) line += fmt::format(", {} missing", missing_);
+  const std::string by_channel = MissingByChannel();
+  if (!by_channel.empty())
+    line += ", " + by_channel;
+  else if (missing_ > 0)
+    line += fmt::format(", {} missing", missing_);
   return text_.empty() ? line : line + "; " + text_;
-}
-
-int64_t KernelDroppedDatagrams() {
-  std::ifstream snmp("/proc/net/snmp");
-  std::string names, values;
-  while (std::getline(snmp, names) && std::getline(snmp, values)) {
-    if (!names.starts_with("Udp:")) continue;
-    std::istringstream name(names), value(values);
-    for (std::string n, v; name >> n && value >> v;) {
-      if (n == "RcvbufErrors") return std::stoll(v);
-    }
-  }
-  return 0;
 }
 
 }  // namespace lcmslam

@@ -17,11 +17,14 @@ class GapCounter {
  public:
   // The number of messages that should have come between the last stamp and this one.
   int64_t Missing(int64_t utime);
+  // Of all stamps so far.
+  int64_t total() const { return total_; }
 
  private:
   static constexpr size_t kWindow = 15;
   std::array<int64_t, kWindow> periods_us_{};
   size_t seen_ = 0;
+  int64_t total_ = 0;
   int64_t last_utime_ = 0;
   bool started_ = false;
 };
@@ -29,7 +32,7 @@ class GapCounter {
 // The counters behind service_status_t. One thread; the live runner adds what its receiving thread dropped.
 class Health {
  public:
-  explicit Health(std::string name) : name_(std::move(name)) {}
+  explicit Health(std::string name);
 
   void CountReceived() { ++received_; }
   void CountProcessed() { ++processed_; }
@@ -56,19 +59,22 @@ class Health {
   std::string Summary() const;
 
  private:
+  bool IsStarved() const;
   int8_t State() const;
+  // What State() is about, for people: "4 missing on LIDAR_2D"; empty when there is nothing to say.
+  std::string Complaint() const;
+  std::string MissingByChannel() const;
 
   std::string name_;
   std::string text_;
+  int64_t kernel_dropped_before_;  // this service started
   int64_t received_ = 0, processed_ = 0, dropped_ = 0, refused_ = 0, missing_ = 0;
   int64_t reported_loss_ = 0;
+  int silent_reports_ = 0;  // in a row, without a new input
   int64_t input_utime_ = 0, reported_input_utime_ = 0;
   double busy_ms_ = 0.0;
   std::vector<double> latencies_ms_;
   std::map<std::string, GapCounter, std::less<>> gaps_;
 };
-
-// Datagrams this host dropped because a socket's buffer was full (RcvbufErrors of /proc/net/snmp); 0 where unknown.
-int64_t KernelDroppedDatagrams();
 
 }  // namespace lcmslam

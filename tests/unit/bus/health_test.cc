@@ -46,6 +46,33 @@ TEST(Health, LatencyQuantilesOfTheLastReport) {
   EXPECT_EQ(health.Report(1, true).latency_p99_ms, 0.0F);
 }
 
+TEST(Health, SaysOnWhichChannelMessagesAreMissing) {
+  Health health("x");
+  for (const int64_t i : {0, 1, 2, 3, 4, 5, 6, 9, 10, 11}) {
+    health.CountProcessed();
+    health.NoteInput("SCAN", 50'000 * i + 1'000'000);
+    health.NoteInput("POSE", 50'000 * i + 1'000'000 + (i >= 9 ? -100'000 : 0));
+  }
+  health.SetText("busy");
+  const service_status_t status = health.Report(0, true);
+  EXPECT_EQ(status.missing, 2);
+  EXPECT_EQ(status.text, "2 missing on SCAN; busy");
+  EXPECT_EQ(health.Summary(), "x: 0 received, 10 processed, 2 missing on SCAN; busy");
+}
+
+TEST(Health, StarvedWhenTheInputStandsStill) {
+  Health health("x");
+  health.CountProcessed();
+  health.NoteInput("SCAN", 1'000'000);
+  EXPECT_EQ(health.Report(0, true).state, int{service_status_t::OK});
+  EXPECT_EQ(health.Report(1, true).state, int{service_status_t::WAITING});
+  EXPECT_EQ(health.Report(2, true).text, "no input for 2 s");
+  health.NoteInput("SCAN", 1'050'000);
+  const service_status_t status = health.Report(3, true);
+  EXPECT_EQ(status.state, int{service_status_t::OK});
+  EXPECT_EQ(status.text, "");
+}
+
 TEST(Health, WithoutWallClockNothingVaries) {
   Health health("x");
   health.NoteLatency(3.0, 2.0);
