@@ -10,17 +10,20 @@ import lcmslam.evaluation_t;
 import lcmslam.occupancy_grid_t;
 import lcmslam.planar_lidar_t;
 import lcmslam.planar_scan_t;
+import lcmslam.point_cloud_chunk_t;
 import lcmslam.pose_t;
 import lcmslam.pose_xyt_t;
 import lcmslam.rigid_transform_t;
 import lcmslam.sdf_tile_t;
 import lcmslam.service_status_t;
+import lcmslam.surfel_chunk_t;
 
 /** Hears everything on the bus and keeps what the views show. Types are told apart by fingerprint; bad messages are counted. */
 final class Feed implements LCMSubscriber {
   private static Feed instance;
 
   final PlanarWorld world = new PlanarWorld();
+  final SpatialWorld space = new SpatialWorld();
   /** By channel. */
   final Map<String, Status> statuses = new TreeMap<>();
   final Map<String, ErrorHistory> errors = new TreeMap<>();
@@ -67,13 +70,25 @@ final class Feed implements LCMSubscriber {
     in.reset();
     if (type == planar_scan_t.LCM_FINGERPRINT) world.setScan(channel, PlanarWorld.Scan.of(new planar_scan_t(in)));
     else if (type == planar_lidar_t.LCM_FINGERPRINT) world.setScan(channel, PlanarWorld.Scan.of(new planar_lidar_t(in)));
-    else if (type == pose_t.LCM_FINGERPRINT) world.addPose(channel, PlanarWorld.Pose.of(new pose_t(in)));
+    else if (type == pose_t.LCM_FINGERPRINT) addPose(channel, new pose_t(in));
     else if (type == pose_xyt_t.LCM_FINGERPRINT) world.addPose(channel, PlanarWorld.Pose.of(new pose_xyt_t(in)));
-    else if (type == rigid_transform_t.LCM_FINGERPRINT) world.setMounting(channel, new rigid_transform_t(in));
+    else if (type == rigid_transform_t.LCM_FINGERPRINT) setMounting(channel, new rigid_transform_t(in));
     else if (type == sdf_tile_t.LCM_FINGERPRINT) world.setTile(new sdf_tile_t(in));
     else if (type == occupancy_grid_t.LCM_FINGERPRINT) world.setGrid(new occupancy_grid_t(in));
+    else if (type == point_cloud_chunk_t.LCM_FINGERPRINT) space.addChunk(channel, new point_cloud_chunk_t(in));
+    else if (type == surfel_chunk_t.LCM_FINGERPRINT) space.addSurfels(new surfel_chunk_t(in));
     else if (type == service_status_t.LCM_FINGERPRINT) setStatus(channel, new service_status_t(in));
     else if (type == evaluation_t.LCM_FINGERPRINT) addEvaluation(channel, new evaluation_t(in));
+  }
+
+  private void addPose(String channel, pose_t message) {
+    world.addPose(channel, PlanarWorld.Pose.of(message));
+    space.addPose(channel, message);
+  }
+
+  private void setMounting(String channel, rigid_transform_t message) {
+    world.setMounting(channel, message);
+    space.setMounting(channel, message);
   }
 
   private synchronized void setStatus(String channel, service_status_t message) {

@@ -130,7 +130,8 @@ final class MapView extends JPanel {
       g.setTransform(map);
       if (isGroundTruth(way.channel) && estimate != null) g.transform(Alignment.of(way.poses, estimate.poses));
       g.setColor(colorOf(way.channel, i++));
-      g.setStroke(new BasicStroke((float) (2 / scale)));
+      float width = isGroundTruth(way.channel) ? 6 : 2;  // seen on both sides of an estimate that lies on it
+      g.setStroke(new BasicStroke((float) (width / scale)));
       Path2D path = new Path2D.Double();
       for (PlanarWorld.Pose p : way.poses) {
         if (path.getCurrentPoint() == null) path.moveTo(p.x, p.y);
@@ -148,7 +149,7 @@ final class MapView extends JPanel {
   private void drawScans(Graphics2D g, PlanarWorld.Pose body) {
     double dot = 3 / scale;
     g.setColor(Palette.SCAN);
-    for (Map.Entry<String, PlanarWorld.Scan> e : world.scans().entrySet()) {
+    for (Map.Entry<String, PlanarWorld.Scan> e : world.scansAt(body.utime).entrySet()) {
       if (e.getKey().startsWith("LIDAR_2D_")) continue;  // a further lidar, which the estimate does not use
       double[] mounting = world.mounting(e.getKey());
       AffineTransform toMap = AffineTransform.getTranslateInstance(body.x, body.y);

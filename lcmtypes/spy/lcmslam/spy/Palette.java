@@ -28,6 +28,13 @@ final class Palette {
     return cells >= -0.5 ? 0xFF000000 | shade << 16 | shade << 8 | shade : 0xFF000000 | (shade * 3 / 4) << 16 | (shade * 5 / 6) << 8 | shade;
   }
 
+  /** By the side that a surface shows: floors and ceilings light, walls darker by their direction. */
+  static int surfel(double nx, double ny, double nz) {
+    double shade = 0.45 + 0.12 * nx + 0.08 * ny + 0.30 * Math.abs(nz);
+    int red = (int) (200 * shade), green = (int) (225 * shade), blue = (int) Math.min(255, 265 * shade);
+    return 0xFF000000 | red << 16 | green << 8 | blue;
+  }
+
   static int occupancy(byte cell) {
     if (cell == 0) return 0;
     int shade = cell > 0 ? 90 - Math.min(90, (int) cell) : 225 + Math.min(30, -cell / 4);

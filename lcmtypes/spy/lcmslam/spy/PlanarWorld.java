@@ -1,7 +1,9 @@
 package lcmslam.spy;
 
 import java.awt.image.BufferedImage;
+import java.util.ArrayDeque;
 import java.util.ArrayList;
+import java.util.Deque;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
@@ -120,16 +122,18 @@ final class PlanarWorld {
     }
   }
 
-  private static final int MAX_TILES = 20000;
+  private static final int MAX_TILES = 20000, MAX_SCANS = 8;
   private final Map<Long, Patch> tiles = new HashMap<>();
   private final Map<String, Trail> trails = new TreeMap<>();
-  private final Map<String, Scan> scans = new TreeMap<>();
+  private final Map<String, Deque<Scan>> scans = new TreeMap<>();  // newest last
   private final Map<String, double[]> mountings = new TreeMap<>();  // x, y, yaw of T_body_lidar by lidar channel
   private Patch grid;
   private long newestTile = Long.MIN_VALUE;
 
   synchronized void setScan(String channel, Scan scan) {
-    scans.put(channel, scan);
+    Deque<Scan> latest = scans.computeIfAbsent(channel, c -> new ArrayDeque<>());
+    latest.addLast(scan);
+    if (latest.size() > MAX_SCANS) latest.removeFirst();
   }
 
   synchronized void addPose(String channel, Pose pose) {
@@ -196,8 +200,15 @@ final class PlanarWorld {
     return ways;
   }
 
-  synchronized Map<String, Scan> scans() {
-    return new TreeMap<>(scans);
+  /** By channel the newest scan that the pose of this time can stem from: a scan comes before its pose. */
+  synchronized Map<String, Scan> scansAt(long utime) {
+    Map<String, Scan> at = new TreeMap<>();
+    for (Map.Entry<String, Deque<Scan>> e : scans.entrySet()) {
+      for (Scan scan : e.getValue()) {
+        if (scan.utime <= utime || !at.containsKey(e.getKey())) at.put(e.getKey(), scan);
+      }
+    }
+    return at;
   }
 
   /** Zeros where nothing is known. */

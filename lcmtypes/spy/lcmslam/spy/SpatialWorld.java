@@ -1,0 +1,85 @@
+package lcmslam.spy;
+
+import java.util.ArrayList;
+import java.util.List;
+import java.util.Map;
+import java.util.TreeMap;
+import lcmslam.point_cloud_chunk_t;
+import lcmslam.pose_t;
+import lcmslam.rigid_transform_t;
+import lcmslam.surfel_chunk_t;
+
+/** The latest sweeps, surfels and the way of the estimate, as the 3D view draws them. Bounded in memory. Any thread. */
+final class SpatialWorld {
+  private static final int MAX_TRAIL = 20_000;
+  private static final String[] ESTIMATES = {"OCTO3D_POSE", "CLOUD3D_POSE"};
+
+  private final Map<String, SweepCollector> sweeps = new TreeMap<>();
+  private final Map<String, Pose3> mountings = new TreeMap<>();  // T_body_lidar by lidar channel
+  private final Map<String, List<Pose3>> ways = new TreeMap<>();
+  private final SurfelStore surfels = new SurfelStore();
+
+  /** Whether poses of this channel are drawn here. */
+  static boolean isEstimate(String channel) {
+    return java.util.Arrays.asList(ESTIMATES).contains(channel);
+  }
+
+  synchronized void addChunk(String channel, point_cloud_chunk_t m) {
+    sweeps.computeIfAbsent(channel, c -> new SweepCollector()).add(m);
+  }
+
+  synchronized void addSurfels(surfel_chunk_t m) {
+    surfels.add(m);
+  }
+
+  synchronized void setMounting(String channel, rigid_transform_t m) {
+    Pose3 mounting = Pose3.of(m);
+    if (mounting.isFinite()) mountings.put(channel.replaceAll("_EXTRINSICS$", ""), mounting);
+  }
+
+  synchronized void addPose(String channel, pose_t m) {
+    Pose3 pose = Pose3.of(m);
+    if (!isEstimate(channel) || !pose.isFinite()) return;
+    List<Pose3> way = ways.computeIfAbsent(channel, c -> new ArrayList<>());
+    if (!way.isEmpty() && pose.utime < way.get(way.size() - 1).utime) way.clear();  // a service that began again
+    way.add(pose);
+    if (way.size() > MAX_TRAIL) way.subList(0, MAX_TRAIL / 2).clear();
+  }
+
+  /** What is drawn at one time. */
+  static final class Scene {
+    /** T_map_body, oldest first; empty before the first. */
+    final List<Pose3> way;
+    /** Map frame, x, y, z by turns. */
+    final float[] sweep;
+    final List<SurfelStore.Surfel> surfels;
+
+    private Scene(List<Pose3> way, float[] sweep, List<SurfelStore.Surfel> surfels) {
+      this.way = way;
+      this.sweep = sweep;
+      this.surfels = surfels;
+    }
+
+    Pose3 body() {
+      return way.isEmpty() ? Pose3.identity() : way.get(way.size() - 1);
+    }
+  }
+
+  synchronized Scene scene() {
+    List<Pose3> way = new ArrayList<>();
+    for (String channel : ESTIMATES) {
+      if (way.isEmpty()) way.addAll(ways.getOrDefault(channel, way));
+    }
+    return new Scene(way, sweepAt(way.isEmpty() ? null : way.get(way.size() - 1)), surfels.all());
+  }
+
+  /** Of the first lidar, where the body was at its end. Null: the body's pose is unknown. */
+  private float[] sweepAt(Pose3 body) {
+    for (Map.Entry<String, SweepCollector> e : sweeps.entrySet()) {
+      float[] points = e.getValue().at(body == null ? Long.MAX_VALUE : body.utime).points();
+      points = mountings.getOrDefault(e.getKey(), Pose3.identity()).apply(points);
+      return body == null ? points : body.apply(points);
+    }
+    return new float[0];
+  }
+}
