@@ -65,12 +65,16 @@ bool NeedsLogAxis(const Samples& values) {
   return !medians.IsEmpty() && medians.max > 5.0 * medians.min;
 }
 
-// Ticks at 1, 2 and 5 of every decade: gnuplot would show few or none on less than two decades.
+// Ticks at 1, 2 and 5 of every decade, where there are many decades only at 1: gnuplot would show few or none on less
+// than two.
 void PrintLogAxis(Text& text, const char* axis, const Range& range_m) {
   const double min_mm = 0.8e3 * range_m.min, max_mm = 1.25e3 * range_m.max;
   Print(text, "set logscale {0}\nset {0}range [{1}:{2}]\nset {0}tics ()\n", axis, min_mm, max_mm);
   for (double decade = std::pow(10.0, std::floor(std::log10(min_mm))); decade < max_mm; decade *= 10.0) {
-    for (const double step : {1.0, 2.0, 5.0}) Print(text, "set {0}tics add (\"{1:g}\" {1:g})\n", axis, step * decade);
+    for (const double step : {1.0, 2.0, 5.0}) {
+      if (step > 1.0 && max_mm > 1e3 * min_mm) break;
+      Print(text, "set {0}tics add (\"{1:g}\" {1:g})\n", axis, step * decade);
+    }
   }
 }
 
@@ -88,8 +92,13 @@ void PrintPath(Text& text, const std::string& data, const Trajectory& trajectory
   Print(text, "EOD\n");
 }
 
-// Names side by side have room for three.
-const char* SlantIfMany(size_t systems) { return systems > 3 ? " rotate by 35 right" : ""; }
+// Names that do not fit side by side below an axis are slanted.
+const char* SlantIfLong(const std::vector<std::string>& names) {
+  constexpr size_t kRoom = 48;  // letters
+  size_t letters = 0;
+  for (const std::string& name : names) letters = std::max(letters, name.size());
+  return letters * names.size() > kRoom ? " rotate by 30 right" : "";
+}
 
 // What has to be seen: the reference, or without one all estimates; a lost system may leave the picture.
 void PrintExtent(Text& text, const EpisodeCurves& curves) {
@@ -140,8 +149,8 @@ Figure BoxPlot(const std::string& name, const std::string& caption, const std::s
   }
   if (NeedsLogAxis(values_m)) PrintLogAxis(text, "y", PositiveRange(values_m));
   Print(text, "set style boxplot nooutliers fraction 0.95\nset boxwidth 0.4\nset style fill solid 0.25 border\n");
-  Print(text, "set xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel {}\n", tics,
-        SlantIfMany(systems.size()), static_cast<double>(systems.size()) + 0.8, GnuplotString(axis));
+  Print(text, "set xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel {}\n", tics, SlantIfLong(systems),
+        static_cast<double>(systems.size()) + 0.8, GnuplotString(axis));
   return {name, caption, fmt::to_string(text) + plot.Command()};
 }
 
@@ -150,8 +159,11 @@ Figure Histogram(const std::string& name, const std::string& caption, const std:
   constexpr int kBins = 60;
   Range range = PositiveRange(values_m);
   const bool log = NeedsLogAxis(values_m);
-  if (log) range.min = std::max(range.min, 1e-3 * range.max);
-  if (!log) {  // from 0 to where hardly anything is left
+  if (log) {  // from where hardly anything lies below
+    Range low;
+    for (const auto& values : values_m) low.Include(Percentile(Finite(values), 0.01));
+    range.min = std::max({range.min, low.min, 1e-6 * range.max});
+  } else {  // from 0 to where hardly anything is left
     range.max = 0.0;
     for (const auto& values : values_m) range.max = std::max(range.max, 1.05 * Percentile(Finite(values), 0.995));
   }
@@ -263,7 +275,7 @@ Figure TimingPlot(const std::string& name, const std::string& caption, const Stu
   Print(
       text,
       "set logscale y\nset xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel \"time of a scan [ms]\"\n",
-      tics, SlantIfMany(study.systems.size()), static_cast<double>(study.systems.size()) + 0.6);
+      tics, SlantIfLong(study.systems), static_cast<double>(study.systems.size()) + 0.6);
   figure.script = fmt::to_string(text) + plot.Command();
   return figure;
 }
