@@ -71,7 +71,7 @@ struct FusionOptions {
   double change_m = 0.06;        // ... if it contradicts by more than this, too
   double change_keep = 0.5;      // ... to this part of its information
   bool carve = true;             // clear what beams pass through
-  int carve_every = 4;           // beams; each scan takes the next ones
+  int carve_every = 8;           // beams; each scan takes the next ones
   double carve_keep = 0.6;       // part of a vertex's information that survives a beam passing through
 
   std::string Validate() const;

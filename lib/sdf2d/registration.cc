@@ -77,8 +77,10 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
     }
     const Vector2d& g = sample.gradient;
     const double along = g.dot(beam);
-    const double cos2 = along * along / (g.squaredNorm() * beam.squaredNorm() + 1e-12);
-    const double precision = 1.0 / (problem.range_variance[i] * std::max(cos2, min_cos2) + map_variance);
+    // 1 / (range variance * cos(incidence)^2 + map variance), with one division.
+    const double full = g.squaredNorm() * beam.squaredNorm();
+    const double precision =
+        full / (problem.range_variance[i] * std::max(along * along, min_cos2 * full) + map_variance * full);
     const double r = sample.distance_m;
     const double chi2 = r * r * precision;
     double w = precision;

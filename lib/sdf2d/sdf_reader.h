@@ -19,46 +19,75 @@ class SdfReader {
     double distance_m = std::numeric_limits<double>::quiet_NaN();
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  // m per m, map frame
 
-    bool IsKnown() const { return !std::isnan(distance_m); }
+    bool IsKnown() const { return distance_m == distance_m; }
   };
-
-  // The surface near p_map (m) that a beam of that direction (map frame, any length) has most likely hit: the nearest
-  // one whose normal points against the beam. Unknown where there is none, where p is not finite or beyond the index
-  // range.
-  Sample Facing(const Eigen::Vector2d& p_map, const Eigen::Vector2d& beam) {
-    const Sample a = At(0, p_map);
-    const Sample b = At(1, p_map);
-    const bool a_faces = Faces(a, beam), b_faces = Faces(b, beam);
-    if (a_faces && b_faces) return std::abs(a.distance_m) < std::abs(b.distance_m) ? a : b;
-    if (a_faces) return a;
-    if (b_faces) return b;
-    return {};
-  }
 
   // p_map: metres; unknown where a corner of its cell is, or where p is not finite or beyond the index range.
   Sample At(int sheet, const Eigen::Vector2d& p_map) {
-    const double x = p_map.x() * per_cell_;
-    const double y = p_map.y() * per_cell_;
-    if (!(std::abs(x) < kMaxIndex && std::abs(y) < kMaxIndex)) return {};
-    const double x0 = std::floor(x);
-    const double y0 = std::floor(y);
-    Corners corner;
-    if (!ReadCorners(sheet, static_cast<int32_t>(x0), static_cast<int32_t>(y0), &corner)) return {};
-    const double u = x - x0;
-    const double v = y - y0;
-    const double bottom = corner.d00 + u * (corner.d10 - corner.d00);
-    const double top = corner.d01 + u * (corner.d11 - corner.d01);
-    const double left = corner.d00 + v * (corner.d01 - corner.d00);
-    const double right = corner.d10 + v * (corner.d11 - corner.d10);
-    return {bottom + v * (top - bottom), Eigen::Vector2d(right - left, top - bottom) * per_cell_};
+    Cell cell;
+    return Locate(p_map, &cell) ? Interpolate(cell, sheet) : Sample{};
+  }
+
+  // The surface near p_map (m) that a beam of that direction (map frame, any length) has most likely hit: the nearest
+  // one whose normal points against the beam. Unknown where there is none, and as At.
+  Sample Facing(const Eigen::Vector2d& p_map, const Eigen::Vector2d& beam) {
+    Cell cell;
+    Sample best;
+    if (!Locate(p_map, &cell)) return best;
+    for (int sheet = 0; sheet < SdfTile::kSheets; ++sheet) {
+      const Sample sample = Interpolate(cell, sheet);
+      const bool faces = sample.gradient.dot(beam) < 0.0;  // not where unknown
+      if (faces && !(std::abs(sample.distance_m) >= std::abs(best.distance_m))) best = sample;
+    }
+    return best;
   }
 
  private:
   static constexpr double kMaxIndex = 1e9;
 
-  struct Corners {
-    double d00, d10, d01, d11;  // d<x><y>
+  // Where a point lies: in the cell between vertices (x, y) and (x + 1, y + 1), at (u, v) in [0, 1).
+  struct Cell {
+    int32_t x, y;
+    double u, v;
+    const SdfTile* tile;  // holds all four vertices; nullptr where they are spread over tiles
   };
+
+  bool Locate(const Eigen::Vector2d& p_map, Cell* cell) {
+    const double x = p_map.x() * per_cell_;
+    const double y = p_map.y() * per_cell_;
+    if (!(std::abs(x) < kMaxIndex && std::abs(y) < kMaxIndex)) return false;
+    cell->x = Floor(x);
+    cell->y = Floor(y);
+    cell->u = x - cell->x;
+    cell->v = y - cell->y;
+    constexpr int kLast = SdfTile::kSide - 1;
+    cell->tile = nullptr;
+    if ((cell->x & kLast) == kLast || (cell->y & kLast) == kLast) return true;
+    cell->tile = TileOf(cell->x, cell->y);
+    return cell->tile != nullptr;
+  }
+
+  Sample Interpolate(const Cell& cell, int sheet) {
+    double d00, d10, d01, d11;  // d<x><y>
+    if (cell.tile != nullptr) {
+      const float* d = &cell.tile->sheets[sheet].distance_m[SdfTile::IndexOf(cell.x, cell.y)];
+      d00 = d[0], d10 = d[1], d01 = d[SdfTile::kSide], d11 = d[SdfTile::kSide + 1];
+    } else {
+      d00 = DistanceAt(sheet, cell.x, cell.y), d10 = DistanceAt(sheet, cell.x + 1, cell.y);
+      d01 = DistanceAt(sheet, cell.x, cell.y + 1), d11 = DistanceAt(sheet, cell.x + 1, cell.y + 1);
+    }
+    const double bottom = d00 + cell.u * (d10 - d00);
+    const double top = d01 + cell.u * (d11 - d01);
+    const double left = d00 + cell.v * (d01 - d00);
+    const double right = d10 + cell.v * (d11 - d10);
+    return {bottom + cell.v * (top - bottom), Eigen::Vector2d(right - left, top - bottom) * per_cell_};
+  }
+
+  // Without SSE 4.1, std::floor is a function call.
+  static int32_t Floor(double value) {
+    const auto truncated = static_cast<int32_t>(value);
+    return truncated - (value < truncated ? 1 : 0);
+  }
 
   const SdfTile* TileOf(int32_t vertex_x, int32_t vertex_y) {
     const int32_t tile_x = vertex_x >> SdfTile::kShift;
@@ -72,26 +101,10 @@ class SdfReader {
     return tile_;
   }
 
-  static bool Faces(const Sample& sample, const Eigen::Vector2d& beam) { return sample.gradient.dot(beam) < 0.0; }
-
   double DistanceAt(int sheet, int32_t vertex_x, int32_t vertex_y) {
     const SdfTile* tile = TileOf(vertex_x, vertex_y);
     return tile == nullptr ? std::numeric_limits<double>::quiet_NaN()
                            : tile->sheets[sheet].distance_m[SdfTile::IndexOf(vertex_x, vertex_y)];
-  }
-
-  bool ReadCorners(int sheet, int32_t x, int32_t y, Corners* corner) {
-    constexpr int kLast = SdfTile::kSide - 1;
-    if ((x & kLast) != kLast && (y & kLast) != kLast) {
-      const SdfTile* tile = TileOf(x, y);
-      if (tile == nullptr) return false;
-      const float* d = &tile->sheets[sheet].distance_m[SdfTile::IndexOf(x, y)];
-      *corner = {d[0], d[1], d[SdfTile::kSide], d[SdfTile::kSide + 1]};
-      return true;
-    }
-    *corner = {DistanceAt(sheet, x, y), DistanceAt(sheet, x + 1, y), DistanceAt(sheet, x, y + 1),
-               DistanceAt(sheet, x + 1, y + 1)};
-    return true;
   }
 
   const SdfMap& map_;
