@@ -51,12 +51,53 @@ void FuseVertex(const VertexMeasurement& seen, int i, const FusionOptions& optio
 }
 
 // A beam that has gone ever deeper behind a surface contradicts it.
-bool Weaken(int i, float before_m, float behind_m, const FusionOptions& options, SdfSheet* sheet) {
+bool IsPierced(float before_m, float now_m, double cell_m) {
+  constexpr double kDepth_cells = 0.75;  // what rounding to a vertex can do
+  return now_m < before_m && now_m < -kDepth_cells * cell_m;
+}
+
+// Takes evidence from a vertex; false once none is left.
+bool Weaken(int i, const FusionOptions& options, SdfSheet* sheet) {
   constexpr float kForgotten = 1.0F;  // 1/m^2; less information is none
-  if (!(sheet->distance_m[i] < behind_m && sheet->distance_m[i] < before_m)) return false;
   sheet->information[i] *= static_cast<float>(options.carve_keep);
-  if (sheet->information[i] < kForgotten) sheet->Forget(i);
-  return true;
+  if (sheet->information[i] >= kForgotten) return true;
+  sheet->Forget(i);
+  return false;
+}
+
+// From the lidar, vertex by vertex; `origin` and `step` in cells.
+void CarveBeam(const Vector2d& origin, const Vector2d& step, int num_steps, const FusionOptions& options,
+               TileWriter* writer, SdfMap* map) {
+  constexpr int kBack = 3;  // vertices of a pierced surface that lose information, from the deepest back
+  struct Visit {
+    SdfTile* tile = nullptr;
+    int i = 0;
+  };
+  std::array<Visit, kBack> visits;
+  Vector2d at = origin + Vector2d(0.5, 0.5);
+  for (int k = 0; k < num_steps; ++k, at += step) {
+    const auto x = static_cast<int32_t>(std::floor(at.x()));
+    const auto y = static_cast<int32_t>(std::floor(at.y()));
+    const Visit before = visits[0];
+    std::shift_right(visits.begin(), visits.end(), 1);
+    visits[0] = {&writer->TileOf(x, y), SdfTile::IndexOf(x, y)};
+    SdfTile& tile = *visits[0].tile;
+    uint8_t& seen_through = tile.seen_through[visits[0].i];
+    if (seen_through < 255) ++seen_through;
+    tile.revision = map->revision();
+    if (before.tile == nullptr) continue;
+    for (int sheet = 0; sheet < SdfTile::kSheets; ++sheet) {
+      const float before_m = before.tile->sheets[sheet].distance_m[before.i];
+      if (!IsPierced(before_m, tile.sheets[sheet].distance_m[visits[0].i], map->cell_m())) continue;
+      // The vertex behind holds least information; when it is gone, the whole column goes.
+      const bool left = Weaken(visits[0].i, options, &tile.sheets[sheet]);
+      for (int back = 1; back < kBack && visits[back].tile != nullptr; ++back) {
+        SdfSheet& earlier = visits[back].tile->sheets[sheet];
+        if (!left || !Weaken(visits[back].i, options, &earlier)) earlier.Forget(visits[back].i);
+        visits[back].tile->revision = map->revision();
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -100,39 +141,14 @@ SdfMap Coarsen(const SdfMap& fine, double coarse_cell_m, const FusionOptions& op
 void Carve(std::span<const Vector2d> p_body, const Vector2d& origin_body, const Pose2& T_map_body,
            const NoiseModel& noise, int first, const FusionOptions& options, SdfMap* map) {
   const double cell_m = map->cell_m();
-  const auto behind_m = static_cast<float>(-cell_m);
   const Vector2d origin = (T_map_body * origin_body) / cell_m;
   TileWriter writer(map);
   for (size_t i = first; i < p_body.size(); i += options.carve_every) {
     const Vector2d end = (T_map_body * p_body[i]) / cell_m;
     const double length = (end - origin).norm();
-    const double margin =
-        std::max(options.band_cells,
-                 std::min(options.band_sigmas * noise.Sigma(length * cell_m), options.max_band_m) / cell_m) +
-        1.0;
-    const int steps = static_cast<int>(length - margin);
-    const Vector2d step = (end - origin) / length;
-    std::array<float, SdfTile::kSheets> before_m;  // at the last vertex
-    before_m.fill(std::numeric_limits<float>::quiet_NaN());
-    Vector2d at = origin + Vector2d(0.5, 0.5);
-    for (int k = 0; k < steps; ++k, at += step) {
-      const auto x = static_cast<int32_t>(std::floor(at.x()));
-      const auto y = static_cast<int32_t>(std::floor(at.y()));
-      SdfTile& tile = writer.TileOf(x, y);
-      const int v = SdfTile::IndexOf(x, y);
-      bool contradicted = false;
-      for (int sheet = 0; sheet < SdfTile::kSheets; ++sheet) {
-        const float distance_m = tile.sheets[sheet].distance_m[v];
-        contradicted |= Weaken(v, before_m[sheet], behind_m, options, &tile.sheets[sheet]);
-        before_m[sheet] = distance_m;
-      }
-      if (contradicted) {
-        tile.revision = map->revision();
-      } else if (tile.seen_through[v] < 255) {
-        ++tile.seen_through[v];
-        tile.revision = map->revision();
-      }
-    }
+    const double margin = std::max(
+        options.band_cells, std::min(options.band_sigmas * noise.Sigma(length * cell_m), options.max_band_m) / cell_m);
+    CarveBeam(origin, (end - origin) / length, static_cast<int>(length - margin - 1.0), options, &writer, map);
   }
 }
 

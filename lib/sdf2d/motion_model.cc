@@ -40,8 +40,7 @@ MotionModel::MotionModel(const MotionOptions& options, const Pose2& T_map_body) 
 }
 
 void MotionModel::Restart(const Pose2& T_map_body) {
-  state_ = MotionState{};
-  state_.T_map_body = T_map_body;
+  state_ = MotionState{.T_map_body = T_map_body};
   state_.covariance.topLeftCorner<3, 3>() =
       Vector3d(options_.start_sigma_m, options_.start_sigma_m, options_.start_sigma_rad).cwiseAbs2().asDiagonal();
   state_.covariance.bottomRightCorner<3, 3>() = StartTwistCovariance(options_);
@@ -65,7 +64,7 @@ void MotionModel::AddOdometry(int64_t utime, const Pose2& T_odom_body) {
   odometry_.push_back({utime, T_odom_body});
 }
 
-// Between two stamps, or a little past the last one.
+// Between two stamps, or a little past the last one at the velocity of the last two.
 std::optional<Pose2> MotionModel::OdometryAt(int64_t utime) const {
   const auto after = std::lower_bound(odometry_.begin(), odometry_.end(), utime,
                                       [](const Odometry& o, int64_t t) { return o.utime < t; });
@@ -74,7 +73,12 @@ std::optional<Pose2> MotionModel::OdometryAt(int64_t utime) const {
   const Odometry& before = *std::prev(after);
   const double since_s = SecondsBetween(before.utime, utime);
   if (since_s > options_.max_odometry_gap_s) return std::nullopt;
-  if (after == odometry_.end()) return before.T_odom_body;
+  if (after == odometry_.end()) {
+    if (odometry_.size() < 2) return before.T_odom_body;
+    const Odometry& earlier = *std::prev(after, 2);
+    const Vector3d step = (earlier.T_odom_body.inverse() * before.T_odom_body).Log();
+    return before.T_odom_body * Pose2::Exp(step * (since_s / SecondsBetween(earlier.utime, before.utime)));
+  }
   return Interpolate(before.T_odom_body, after->T_odom_body, since_s / SecondsBetween(before.utime, after->utime));
 }
 

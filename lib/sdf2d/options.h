@@ -40,8 +40,13 @@ struct RegistrationOptions {
   double inlier_sigmas = 3.0;      // residuals below count as inliers
   double map_sigma_m = 0.003;      // m; the map's own error, added to every beam's
   double min_cos_incidence = 0.3;  // grazing beams weigh no more than this one
-  double stop_sigmas = 0.1;        // stop when a step is shorter than this part of the pose's own sigma
-  double min_eigenvalue = 0.006;   // a direction seen by less than this part of the beams is unobservable
+  // Beams do not err independently: neighbours share errors of the map and of the sensor, which would otherwise pass
+  // for velocity where beam times are known, and for certainty everywhere.
+  double shared_sigma_m = 0.005;  // m; the beams that fall on shared_length_m of surface share an error of this size
+  double shared_length_m = 0.1;
+  double independence = 0.2;      // of what is left: one beam counts as this part of an independent one
+  double stop_sigmas = 0.1;       // stop when a step is shorter than this part of the pose's own sigma
+  double min_eigenvalue = 0.006;  // a direction seen by less than this part of the beams is unobservable
   int min_points = 20;
 
   std::string Validate() const;
@@ -83,10 +88,11 @@ struct RecoveryOptions {
   double min_overlap = 0.25;      // of the beams must fall on mapped surface
   double min_found_ratio = 0.5;   // of all beams must be inliers where the search says it found the pose
   double suspicious_drop = 0.25;  // a fall of the inlier share below its running mean by this starts the coarse level
-  double search_m = 1.0;          // half width of the correlative search around the prediction
-  double search_rad = 0.6;        // ... and in yaw
-  double max_search_m = 4.0;      // the window doubles with every scan that stays lost, up to this
-  int patience = 50;              // scans lost before mapping starts afresh from the predicted pose; 0: never
+  double max_surprise_sigmas = 5.0;  // ... and it may not lie farther from the prediction than this
+  double search_m = 1.0;             // half width of the correlative search around the prediction
+  double search_rad = 0.6;           // ... and in yaw
+  double max_search_m = 4.0;         // the window doubles with every scan that stays lost, up to this
+  int patience = 50;                 // scans lost before mapping starts afresh from the predicted pose; 0: never
 
   std::string Validate() const;
 };

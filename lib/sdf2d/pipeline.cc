@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Cholesky>
+
 #include "sdf2d/fusion.h"
 #include "sdf2d/recovery.h"
 #include "sdf2d/surface.h"
@@ -67,12 +69,12 @@ Pipeline::Registration Pipeline::Register(std::span<const ScanPoint> points, con
   AlignResult align = Align(map_, points, origin_body_, noise_, prediction, options_.registration);
   Charge(Stage::kRegister, result);
   const RecoveryOptions& recovery = options_.recovery;
-  if (!IsGood(align) || align.InlierRatio() < usual_inlier_ratio_ - recovery.suspicious_drop) {
+  if (!IsGood(align, prediction) || IsSuspicious(align)) {
     const AlignResult wide =
         AlignCoarseToFine(map_, coarse_map_, points, origin_body_, noise_, prediction, options_.registration);
     if (wide.inliers > align.inliers) align = wide;
   }
-  const bool good = IsGood(align);
+  const bool good = IsGood(align, prediction) && motion_.started();  // a pose given by hand is only where to look
   if (!good) align = Search(points, prediction);
   Charge(Stage::kRecover, result);
 
@@ -126,9 +128,21 @@ void Pipeline::UpdateMap(std::span<const ScanPoint> points, const MotionState& s
   Charge(Stage::kCarve, result);
 }
 
-bool Pipeline::IsGood(const AlignResult& align) const {
-  return align.status != AlignStatus::kTooFewPoints && align.matched >= options_.recovery.min_overlap * align.points &&
-         align.inliers >= options_.recovery.min_inlier_ratio * align.matched;
+bool Pipeline::IsSuspicious(const AlignResult& align) const {
+  return align.InlierRatio() < usual_inlier_ratio_ - options_.recovery.suspicious_drop;
+}
+
+// Enough of the scan fell on mapped surface, and enough of that fits. What fits much less than usual must at least
+// agree with the prediction.
+bool Pipeline::IsGood(const AlignResult& align, const MotionState& prediction) const {
+  const RecoveryOptions& recovery = options_.recovery;
+  if (align.status == AlignStatus::kTooFewPoints) return false;
+  if (align.matched < recovery.min_overlap * align.points) return false;
+  if (align.inliers < recovery.min_inlier_ratio * align.matched) return false;
+  if (!IsSuspicious(align)) return true;
+  const Eigen::Vector3d off = (prediction.T_map_body.inverse() * align.state.T_map_body).Log();
+  const Eigen::Matrix3d covariance = prediction.covariance.topLeftCorner<3, 3>();
+  return off.dot(covariance.ldlt().solve(off)) < recovery.max_surprise_sigmas * recovery.max_surprise_sigmas;
 }
 
 bool Pipeline::Accepts(int64_t utime, std::span<const ScanPoint> points) const {

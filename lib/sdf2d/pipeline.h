@@ -90,7 +90,8 @@ class Pipeline {
   bool Accepts(int64_t utime, std::span<const ScanPoint> points) const;
   void RestartClockIfItJumped(int64_t utime);
   Registration Register(std::span<const ScanPoint> points, const MotionState& prediction, Result* result);
-  bool IsGood(const AlignResult& align) const;
+  bool IsSuspicious(const AlignResult& align) const;
+  bool IsGood(const AlignResult& align, const MotionState& prediction) const;
   AlignResult Search(std::span<const ScanPoint> points, const MotionState& prediction) const;
   Registration GiveUp(const MotionState& prediction, AlignResult align);
   void UpdateMap(std::span<const ScanPoint> points, const MotionState& state, Result* result);

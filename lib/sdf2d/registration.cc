@@ -40,6 +40,13 @@ struct Linearization {
   int matched = 0;
   int inliers = 0;
 
+  // Lets the scan count as `weight` scans.
+  void Weigh(double weight) {
+    for (Matrix3d* m : {&a_a, &dt_a_a, &dt2_a_a}) *m *= weight;
+    for (Vector3d* v : {&a_r, &dt_a_r}) *v *= weight;
+    for (double* d : {&cost, &sum_weights, &sum_lever_m2}) *d *= weight;
+  }
+
   // Forgets what the scan says along the directions that `keep` projects away.
   void Project(const Matrix3d& keep) {
     a_a = (keep.transpose() * a_a * keep).eval();
@@ -50,6 +57,7 @@ struct Linearization {
 struct Problem {
   const SdfMap& map;
   const std::vector<double>& range_variance;
+  const std::vector<double>& shared_variance;
   Vector2d origin_body;
   const RegistrationOptions& options;
 };
@@ -79,11 +87,11 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
     const double along = g.dot(beam);
     // 1 / (range variance * cos(incidence)^2 + map variance), with one division.
     const double full = g.squaredNorm() * beam.squaredNorm();
-    const double precision =
-        full / (problem.range_variance[i] * std::max(along * along, min_cos2 * full) + map_variance * full);
+    const double own = problem.range_variance[i] * std::max(along * along, min_cos2 * full) + map_variance * full;
+    const double precision = full / own;
     const double r = sample.distance_m;
     const double chi2 = r * r * precision;
-    double w = precision;
+    double w = full / (own + problem.shared_variance[i] * full);
     if (chi2 > huber * huber) {
       const double sigmas = std::sqrt(chi2);
       w *= huber / sigmas;
@@ -105,6 +113,19 @@ Linearization Linearize(const Problem& problem, const Pose2& T_map_body, std::sp
   sum.a_a = sums.Matrix();
   sum.a_r = sums.Vector();
   return sum;
+}
+
+// What the errors that n neighbours share add to the variance of each, so that together they weigh as much as one:
+// n is the number of beams per shared_length_m of surface.
+std::vector<double> SharedVariance(std::span<const ScanPoint> points, const RegistrationOptions& options) {
+  const double variance = options.shared_sigma_m * options.shared_sigma_m;
+  std::vector<double> shared(points.size(), variance);
+  for (size_t i = 1; i + 1 < points.size(); ++i) {
+    const double spacing_m = std::sqrt(std::min((points[i].p_body - points[i - 1].p_body).squaredNorm(),
+                                                (points[i + 1].p_body - points[i].p_body).squaredNorm()));
+    if (spacing_m < options.shared_length_m) shared[i] = variance * options.shared_length_m / (spacing_m + 1e-3);
+  }
+  return shared;
 }
 
 // The projector onto pose directions that fewer than min_eigenvalue of the beams (by weight) constrain. Rotation is
@@ -140,7 +161,8 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
     const double sigma = noise.Sigma(points[i].range_m);
     range_variance[i] = sigma * sigma;
   }
-  const Problem problem{map, range_variance, origin_body, options};
+  const std::vector<double> shared_variance = SharedVariance(points, options);
+  const Problem problem{map, points, range_variance, shared_variance, origin_body, options, has_times};
   const Matrix6d prior = prediction.covariance.ldlt().solve(Matrix6d::Identity());
 
   AlignResult result;
@@ -161,6 +183,7 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
   for (result.iterations = 0; result.iterations < options.max_iterations; ++result.iterations) {
     const MotionState state = state_at(offset);
     Linearization scan = Linearize(problem, state.T_map_body, p_body);
+    scan.Weigh(options.independence);
     const double cost = scan.cost + offset.dot(prior * offset);
     if (cost > best_cost * (1.0 + 1e-9)) {  // worse: shorter steps from the best state so far
       damping = std::max(10.0 * damping, 1e-2);
