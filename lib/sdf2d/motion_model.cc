@@ -41,10 +41,13 @@ MotionModel::MotionModel(const MotionOptions& options, const Pose2& T_map_body) 
 
 void MotionModel::Restart(const Pose2& T_map_body) {
   state_ = MotionState{.T_map_body = T_map_body};
-  state_.covariance.topLeftCorner<3, 3>() =
-      Vector3d(options_.start_sigma_m, options_.start_sigma_m, options_.start_sigma_rad).cwiseAbs2().asDiagonal();
+  state_.covariance.topLeftCorner<3, 3>() = StartPoseCovariance();
   state_.covariance.bottomRightCorner<3, 3>() = StartTwistCovariance(options_);
   started_ = false;
+}
+
+Matrix3d MotionModel::StartPoseCovariance() const {
+  return Vector3d(options_.start_sigma_m, options_.start_sigma_m, options_.start_sigma_rad).cwiseAbs2().asDiagonal();
 }
 
 void MotionModel::Correct(int64_t utime, const MotionState& state) {
@@ -85,6 +88,13 @@ std::optional<Pose2> MotionModel::OdometryAt(int64_t utime) const {
 MotionState MotionModel::Predict(int64_t utime) const {
   MotionState predicted = state_;
   if (!started_) return predicted;
+  if (!options_.predict) {
+    predicted.twist_body.setZero();
+    predicted.covariance.setZero();
+    predicted.covariance.topLeftCorner<3, 3>() = StartPoseCovariance();
+    predicted.covariance.bottomRightCorner<3, 3>() = StartTwistCovariance(options_);
+    return predicted;
+  }
   const double dt = SecondsBetween(utime_, utime);
   const std::optional<Pose2> from = OdometryAt(utime_);
   const std::optional<Pose2> to = OdometryAt(utime);

@@ -55,6 +55,7 @@ class MotionModel {
     int64_t utime;
     Pose2 T_odom_body;
   };
+  Eigen::Matrix3d StartPoseCovariance() const;
   std::optional<Pose2> OdometryAt(int64_t utime) const;
 
   MotionOptions options_;

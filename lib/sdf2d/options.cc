@@ -79,6 +79,7 @@ std::string SurfaceOptions::Validate() const {
       .Demand(min_beams >= 2, "min_beams", "must be >= 2")
       .Demand(max_incidence_rad > 0.0 && max_incidence_rad < 1.57, "max_incidence_rad", "must lie in (0, 1.57)")
       .Positive("max_gap_m", max_gap_m)
+      .NotNegative("max_piece_m", max_piece_m)
       .Complaint();
 }
 
@@ -95,6 +96,8 @@ std::string FusionOptions::Validate() const {
       .Positive("change_sigmas", change_sigmas)
       .NotNegative("change_m", change_m)
       .Fraction("change_keep", change_keep)
+      .NotNegative("update_distance_m", update_distance_m)
+      .NotNegative("update_angle_rad", update_angle_rad)
       .Demand(carve_every >= 1, "carve_every", "must be >= 1")
       .Fraction("carve_keep", carve_keep)
       .Complaint();

@@ -18,6 +18,7 @@ struct NoiseOptions {
 
 // Constant velocity, disturbed by white acceleration noise; odometry replaces the velocity where it is known.
 struct MotionOptions {
+  bool predict = true;                // false: every scan starts where the last one ended, as far off as start_sigma
   double acceleration = 1.0;          // m/s^2 held for 0.1 s, one sigma
   double angular_acceleration = 2.0;  // rad/s^2 held for 0.1 s, one sigma
   double start_speed = 1.0;           // m/s, one sigma, when nothing is known
@@ -26,8 +27,8 @@ struct MotionOptions {
   double start_sigma_rad = 0.2;       // rad, the same
   double max_gap_s = 1.0;             // a longer pause between scans forgets the velocity
   double odometry_slip = 0.1;         // of the motion (m per m, rad per rad), one sigma
-  double odometry_sigma_m = 0.005;    // m per increment, one sigma
-  double odometry_sigma_rad = 0.005;  // rad per increment, one sigma
+  double odometry_sigma_m = 0.03;     // m per increment, one sigma; stamps that jitter are in it, too
+  double odometry_sigma_rad = 0.015;  // rad per increment, one sigma
   double max_odometry_gap_s = 0.25;   // odometry farther from a scan than this is not used for it
 
   std::string Validate() const;
@@ -41,7 +42,7 @@ struct RegistrationOptions {
   double map_sigma_m = 0.003;      // m; the map's own error, added to every beam's
   double min_cos_incidence = 0.3;  // grazing beams weigh no more than this one
   // Beams do not err independently: neighbours share errors of the map and of the sensor, which would otherwise pass
-  // for velocity where beam times are known, and for certainty everywhere.
+  // for certainty.
   double shared_sigma_m = 0.005;  // m; the beams that fall on shared_length_m of surface share an error of this size
   double shared_length_m = 0.1;
   double independence = 0.2;      // of what is left: one beam counts as this part of an independent one
@@ -58,26 +59,29 @@ struct SurfaceOptions {
   int min_beams = 3;                // shorter pieces are not written into the map
   double max_incidence_rad = 1.43;  // pieces seen more obliquely are not written (82 deg)
   double max_gap_m = 0.5;           // no piece spans a larger gap between neighbouring end points
+  double max_piece_m = 0.0;         // longer pieces are cut, however straight; 0: never
 
   std::string Validate() const;
 };
 
 // Writing surfaces into the map.
 struct FusionOptions {
-  double band_cells = 1.6;       // half width of the band around a surface that one scan may write, at least
-  double band_sigmas = 3.0;      // ... and at least this many sigmas of the beam
-  double max_band_m = 0.3;       // ... and at most
-  double distance_sigma = 0.3;   // m per m: uncertainty that grows with the distance to the surface
-  double end_sigma = 1.0;        // m per m: ... and with the distance past a piece's end
-  double end_cells = 0.5;        // a piece may write this far past its ends
-  double sigma_floor_m = 0.001;  // m; no measurement counts as better than this
-  double max_information = 1e9;  // 1/m^2; forgets: old evidence weighs no more than this
-  double change_sigmas = 4.0;    // a vertex that contradicts by more than this is forgotten ...
-  double change_m = 0.06;        // ... if it contradicts by more than this, too
-  double change_keep = 0.5;      // ... to this part of its information
-  bool carve = true;             // clear what beams pass through
-  int carve_every = 8;           // beams; each scan takes the next ones
-  double carve_keep = 0.6;       // part of a vertex's information that survives a beam passing through
+  double band_cells = 1.6;         // half width of the band around a surface that one scan may write, at least
+  double band_sigmas = 3.0;        // ... and at least this many sigmas of the beam
+  double max_band_m = 0.3;         // ... and at most
+  double distance_sigma = 0.3;     // m per m: uncertainty that grows with the distance to the surface
+  double end_sigma = 1.0;          // m per m: ... and with the distance past a piece's end
+  double end_cells = 0.5;          // a piece may write this far past its ends
+  double sigma_floor_m = 0.001;    // m; no measurement counts as better than this
+  double max_information = 1e9;    // 1/m^2; forgets: old evidence weighs no more than this
+  double change_sigmas = 4.0;      // a vertex that contradicts by more than this is forgotten ...
+  double change_m = 0.06;          // ... if it contradicts by more than this, too
+  double change_keep = 0.5;        // ... to this part of its information
+  double update_distance_m = 0.0;  // the map is written after the body moved this far ...
+  double update_angle_rad = 0.0;   // ... or turned by this; 0: with every scan
+  bool carve = true;               // clear what beams pass through
+  int carve_every = 8;             // beams; each scan takes the next ones
+  double carve_keep = 0.6;         // part of a vertex's information that survives a beam passing through
 
   std::string Validate() const;
 };

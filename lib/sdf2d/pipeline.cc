@@ -42,7 +42,7 @@ Result Pipeline::Process(const PlanarScan& scan) {
   const Registration registration = Register(points, prediction, &result);
   const MotionState& state = registration.align.state;
   motion_.Correct(scan.utime, state);
-  if (registration.status != Status::kLost && !options_.localize_only) UpdateMap(points, state, &result);
+  if (registration.status != Status::kLost && MapIsDue(state.T_map_body)) UpdateMap(points, state, &result);
 
   result.status = registration.status;
   result.T_map_body = state.T_map_body;
@@ -105,6 +105,13 @@ Pipeline::Registration Pipeline::GiveUp(const MotionState& prediction, AlignResu
   return {align, Status::kInitializing};
 }
 
+bool Pipeline::MapIsDue(const Pose2& T_map_body) const {
+  if (options_.localize_only) return false;
+  const Pose2 moved = T_map_body_mapped_.inverse() * T_map_body;
+  return map_.empty() || moved.translation().norm() >= options_.fusion.update_distance_m ||
+         std::abs(moved.yaw()) >= options_.fusion.update_angle_rad;
+}
+
 void Pipeline::UpdateMap(std::span<const ScanPoint> points, const MotionState& state, Result* result) {
   std::vector<Eigen::Vector2d> p_body;
   Deskew(points, state.twist_body, &p_body);
@@ -125,6 +132,7 @@ void Pipeline::UpdateMap(std::span<const ScanPoint> points, const MotionState& s
     }
   }
   ++scans_mapped_;
+  T_map_body_mapped_ = state.T_map_body;
   Charge(Stage::kCarve, result);
 }
 

@@ -94,6 +94,7 @@ class Pipeline {
   bool IsGood(const AlignResult& align, const MotionState& prediction) const;
   AlignResult Search(std::span<const ScanPoint> points, const MotionState& prediction) const;
   Registration GiveUp(const MotionState& prediction, AlignResult align);
+  bool MapIsDue(const Pose2& T_map_body) const;
   void UpdateMap(std::span<const ScanPoint> points, const MotionState& state, Result* result);
   // Adds the time since the last call to a stage.
   void Charge(Stage stage, Result* result);
@@ -108,6 +109,7 @@ class Pipeline {
   double usual_inlier_ratio_ = 0.0;  // running mean
   int scans_lost_ = 0;
   int64_t scans_mapped_ = 0;
+  Pose2 T_map_body_mapped_;  // where the last one was
   std::function<double()> now_ms_;
   double last_ms_ = 0.0;
 };

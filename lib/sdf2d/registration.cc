@@ -42,8 +42,8 @@ struct Linearization {
 
   // Lets the scan count as `weight` scans.
   void Weigh(double weight) {
-    for (Matrix3d* m : {&a_a, &dt_a_a, &dt2_a_a}) *m *= weight;
-    for (Vector3d* v : {&a_r, &dt_a_r}) *v *= weight;
+    a_a *= weight;
+    a_r *= weight;
     for (double* d : {&cost, &sum_weights, &sum_lever_m2}) *d *= weight;
   }
 
@@ -162,7 +162,7 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
     range_variance[i] = sigma * sigma;
   }
   const std::vector<double> shared_variance = SharedVariance(points, options);
-  const Problem problem{map, points, range_variance, shared_variance, origin_body, options, has_times};
+  const Problem problem{map, range_variance, shared_variance, origin_body, options};
   const Matrix6d prior = prediction.covariance.ldlt().solve(Matrix6d::Identity());
 
   AlignResult result;

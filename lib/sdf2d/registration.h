@@ -34,11 +34,12 @@ struct AlignResult {
 };
 
 // The most probable pose and velocity, given the prediction and a scan in a signed distance map phi:
-//   argmin |e|^2_{P^-1} + k sum_i w_i rho(phi(T Exp(v dt_i) p_i)),  1 / w_i = sigma_i^2 cos(incidence_i)^2 +
-//   sigma_map^2
-//                                                                             + n_i sigma_shared^2,
+//   argmin |e|^2_{P^-1} + k sum_i w_i rho(phi(T Exp(v dt_i) p_i)),
+//   1 / w_i = sigma_i^2 cos(incidence_i)^2 + sigma_map^2 + n_i sigma_shared^2,
 // n_i the beams that share an error with beam i, k the independence of the rest: an iterated Kalman update by
-// Gauss-Newton on SE(2) x R^3 with Levenberg-Marquardt damping and Huber's rho (in sigmas of the beam alone).
+// Gauss-Newton on SE(2) x R^3 with Levenberg-Marquardt damping and Huber's rho (in sigmas of the beam alone). The scan
+// is deskewed once, with the predicted velocity v, and moves the velocity only through the prediction's covariance P: a
+// velocity estimated from the distortion within the scan takes errors of the map, which its beams share, for motion.
 // Directions that the scan does not determine stay at the prediction. Pure.
 [[nodiscard]] AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points,
                                 const Eigen::Vector2d& origin_body, const NoiseModel& noise,

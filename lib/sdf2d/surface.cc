@@ -52,11 +52,9 @@ class Splitter {
   }
 
  private:
-  bool IsGap(int i) const {
-    const Ray& a = rays_[i - 1];
-    const Ray& b = rays_[i];
-    return (a.range_m * a.direction - b.range_m * b.direction).squaredNorm() > options_.max_gap_m * options_.max_gap_m;
-  }
+  Vector2d EndPoint(int i) const { return rays_[i].range_m * rays_[i].direction; }
+
+  bool IsGap(int i) const { return (EndPoint(i) - EndPoint(i - 1)).norm() > options_.max_gap_m; }
 
   double Chi2(int begin, int end) const {
     if (end - begin <= 2) return 0.0;
@@ -87,6 +85,18 @@ class Splitter {
         SplitRun(begin, best, Chi2(begin, best));
         SplitRun(best, end, Chi2(best, end));
         return;
+      }
+    }
+    AddRun(begin, end);
+  }
+
+  // Cut into pieces that are short enough.
+  void AddRun(int begin, int end) {
+    if (options_.max_piece_m > 0.0) {
+      for (int i = begin + 1; i < end; ++i) {
+        if ((EndPoint(i) - EndPoint(begin)).norm() <= options_.max_piece_m) continue;
+        runs_.emplace_back(begin, i);
+        begin = i;
       }
     }
     runs_.emplace_back(begin, end);

@@ -13,10 +13,43 @@ void BindNoise(ConfigBinder bind, sdf2d::NoiseOptions& noise) {
 }
 
 void BindMotion(ConfigBinder bind, sdf2d::MotionOptions& motion) {
-  bind("acceleration", motion.acceleration)("angular_acceleration", motion.angular_acceleration);
+  bind("predict", motion.predict)("acceleration", motion.acceleration)("angular_acceleration",
+                                                                       motion.angular_acceleration);
   bind("start_speed", motion.start_speed)("start_turn_rate", motion.start_turn_rate)("max_gap_s", motion.max_gap_s);
+  bind("start_sigma_m", motion.start_sigma_m)("start_sigma_rad", motion.start_sigma_rad);
   bind("odometry_slip", motion.odometry_slip)("odometry_sigma_m", motion.odometry_sigma_m);
   bind("odometry_sigma_rad", motion.odometry_sigma_rad)("max_odometry_gap_s", motion.max_odometry_gap_s);
+}
+
+void BindRegistration(ConfigBinder bind, sdf2d::RegistrationOptions& registration) {
+  bind("max_iterations", registration.max_iterations)("huber_sigmas", registration.huber_sigmas);
+  bind("inlier_sigmas", registration.inlier_sigmas)("map_sigma_m", registration.map_sigma_m);
+  bind("min_cos_incidence", registration.min_cos_incidence)("shared_sigma_m", registration.shared_sigma_m);
+  bind("shared_length_m", registration.shared_length_m)("independence", registration.independence);
+  bind("stop_sigmas", registration.stop_sigmas);
+  bind("min_eigenvalue", registration.min_eigenvalue)("min_points", registration.min_points);
+}
+
+void BindSurface(ConfigBinder bind, sdf2d::SurfaceOptions& surface) {
+  bind("split_chi2", surface.split_chi2)("min_beams", surface.min_beams);
+  bind("max_incidence_rad", surface.max_incidence_rad)("max_gap_m", surface.max_gap_m)("max_piece_m",
+                                                                                       surface.max_piece_m);
+}
+
+void BindFusion(ConfigBinder bind, sdf2d::FusionOptions& fusion) {
+  bind("band_cells", fusion.band_cells)("band_sigmas", fusion.band_sigmas)("max_band_m", fusion.max_band_m);
+  bind("distance_sigma", fusion.distance_sigma)("end_sigma", fusion.end_sigma)("end_cells", fusion.end_cells);
+  bind("sigma_floor_m", fusion.sigma_floor_m)("max_information", fusion.max_information);
+  bind("change_sigmas", fusion.change_sigmas)("change_m", fusion.change_m)("change_keep", fusion.change_keep);
+  bind("update_distance_m", fusion.update_distance_m)("update_angle_rad", fusion.update_angle_rad)(
+      "carve", fusion.carve)("carve_every", fusion.carve_every)("carve_keep", fusion.carve_keep);
+}
+
+void BindRecovery(ConfigBinder bind, sdf2d::RecoveryOptions& recovery) {
+  bind("min_inlier_ratio", recovery.min_inlier_ratio)("min_overlap", recovery.min_overlap);
+  bind("min_found_ratio", recovery.min_found_ratio)("suspicious_drop", recovery.suspicious_drop);
+  bind("max_surprise_sigmas", recovery.max_surprise_sigmas)("search_m", recovery.search_m);
+  bind("search_rad", recovery.search_rad)("max_search_m", recovery.max_search_m)("patience", recovery.patience);
 }
 
 }  // namespace
@@ -36,6 +69,11 @@ void BindOptions(config::Sdf2dSlam& config, Sdf2dSlamOptions& options) {
   bind("deskew", slam.deskew)("localize_only", slam.localize_only)("load_map", options.load_map);
   BindNoise(bind.Sub("noise"), slam.noise);
   BindMotion(bind.Sub("motion"), slam.motion);
+  bind("coarse_cell_m", slam.coarse_cell_m);
+  BindRegistration(bind.Sub("registration"), slam.registration);
+  BindSurface(bind.Sub("surface"), slam.surface);
+  BindFusion(bind.Sub("fusion"), slam.fusion);
+  BindRecovery(bind.Sub("recovery"), slam.recovery);
 }
 
 }  // namespace lcmslam

@@ -12,9 +12,9 @@ main() {
   export -f run_episode
   parallel --will-cite --jobs "$(nproc)" --halt soon,fail=1 run_episode '{1}' '{2}' \
     ::: none low rated ::: $(seq $first_seed $((first_seed + episodes - 1)))
-  judge none 0.0008
-  judge low 0.0015
-  judge rated 0.030
+  judge none 0.0004
+  judge low 0.00085
+  judge rated 0.0078
   finish_test
 }
 

@@ -31,6 +31,15 @@ TEST(MotionModel, PredictsConstantTwist) {
   EXPECT_TRUE(state.twist_body.isApprox(twist));
 }
 
+TEST(MotionModel, WithoutPredictionStartsWhereItWas) {
+  MotionModel model({.predict = false, .start_sigma_m = 0.4, .start_sigma_rad = 0.3}, Pose2());
+  model.Correct(0, {.T_map_body = Pose2(1.0, 2.0, 0.5), .twist_body = Vector3d(0.8, -0.1, 0.6)});
+  const MotionState state = model.Predict(200'000);
+  ExpectNear(state.T_map_body, Pose2(1.0, 2.0, 0.5), 1e-15);
+  EXPECT_TRUE(state.twist_body.isZero());
+  EXPECT_TRUE(state.covariance.diagonal().head<3>().isApprox(Vector3d(0.16, 0.16, 0.09)));
+}
+
 // The covariance of the prediction against the propagated error of displaced states.
 TEST(MotionModel, CovarianceFollowsTheDerivative) {
   MotionOptions options;

@@ -192,6 +192,23 @@ TEST(Pipeline, SaysSoWhenLost) {
   EXPECT_EQ(pipeline.map().revision(), revision) << "nothing is mapped from a lost pose";
 }
 
+TEST(Pipeline, WritesTheMapAfterEnoughMotion) {
+  const auto frames = Drive(Episode(1013, RangeNoise::Low(), false, 10.0));
+  Options options = StartingAt(frames.front().T_world_body);
+  options.fusion.update_distance_m = 0.3;
+  options.fusion.update_angle_rad = 0.5;
+  Pipeline pipeline(options);
+  Pose2 T_map_body_written;
+  for (const PlanarFrame& frame : frames) {
+    const uint64_t revision = pipeline.map().revision();
+    const Pose2 T_map_body = pipeline.Process(frame.scan).T_map_body;
+    const Pose2 moved = T_map_body_written.inverse() * T_map_body;
+    const bool due = revision == 0 || moved.translation().norm() >= 0.3 || std::abs(moved.yaw()) >= 0.5;
+    ASSERT_EQ(pipeline.map().revision() != revision, due);
+    if (due) T_map_body_written = T_map_body;
+  }
+}
+
 TEST(Pipeline, LocalizesOnALoadedMapWithoutChangingIt) {
   const auto frames = Drive(Episode(1012, RangeNoise::Low(), false, 20.0));
   Pipeline mapper(StartingAt(frames.front().T_world_body));

@@ -47,6 +47,14 @@ TEST(Surface, CornerGivesTwoExactLines) {
   EXPECT_EQ(lines[0].num_beams + lines[1].num_beams, static_cast<int>(points.size()));
 }
 
+TEST(Surface, PiecesAreNoLongerThanAsked) {
+  std::mt19937_64 random(1);
+  const std::vector<Vector2d> points = Wall({1.0, 0.0}, 2.0, -0.5, 0.5, 0.0, random);
+  const auto lines = ExtractSurface(points, Vector2d::Zero(), FixedNoise(0.001), {.min_beams = 2, .max_piece_m = 0.2});
+  EXPECT_GE(lines.size(), 4.0 * std::tan(0.5) / 0.2);
+  for (const SurfaceLine& line : lines) EXPECT_LE((line.end - line.begin).norm(), 0.2 + 1e-9);
+}
+
 // Oblique wall, noise as large as the window: total least squares on the points would tilt it by several sigmas.
 TEST(Surface, LinesAreUnbiasedAndTheirVarianceIsTrue) {
   constexpr int kTrials = 400;
