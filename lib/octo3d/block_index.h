@@ -23,14 +23,18 @@ class BlockIndex {
   // key must be new; node not null.
   void Insert(uint64_t key, SurfelNode* node);
   void Clear();
+  size_t num_slots() const { return slots_.size(); }
   size_t size() const { return size_; }
 
   // Calls visit(key, node) for every block, in an order that depends on the keys and their number only.
   template <typename Visit>
   void ForEach(Visit visit) const {
-    for (const Slot& slot : slots_) {
-      if (slot.node != nullptr) visit(slot.key, slot.node);
-    }
+    for (size_t slot = 0; slot < slots_.size(); ++slot) VisitSlot(slot, visit);
+  }
+  // slot: below num_slots(); visits at most one block.
+  template <typename Visit>
+  void VisitSlot(size_t slot, Visit visit) const {
+    if (slots_[slot].node != nullptr) visit(slots_[slot].key, slots_[slot].node);
   }
 
  private:

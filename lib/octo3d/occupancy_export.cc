@@ -38,6 +38,10 @@ octomap::OcTree ToOccupancy(const SurfelMap& map, const OccupancyExportOptions& 
 
 }  // namespace
 
+std::string OccupancyExportOptions::Validate() const {
+  return max_ray_m > 0.0 && max_ray_m <= 1000.0 ? "" : "occupancy.max_ray_m: must be in (0, 1000]";
+}
+
 void WriteOt(const SurfelMap& map, const OccupancyExportOptions& options, std::ostream& out) {
   octomap::OcTree tree = ToOccupancy(map, options);
   tree.prune();

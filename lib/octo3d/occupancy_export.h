@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 
 #include "octo3d/surfel_map.h"
 
@@ -9,6 +10,7 @@ namespace lcmslam::octo3d {
 struct OccupancyExportOptions {
   bool free_space = true;  // cells on the way from a viewpoint to the leaves it saw
   double max_ray_m = 30.0;
+  std::string Validate() const;  // "" or "field: reason"
 };
 
 // The map as OctoMap's occupancy octree (cells of leaf_m): every leaf occupied; free what lies between a leaf and the

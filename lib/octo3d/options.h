@@ -73,6 +73,7 @@ struct Options {
   CoarseSearchOptions search;
   TrustOptions trust;
   bool localise_only = false;    // the map stays as it is
+  int threads = 1;               // 2: another one takes a sweep into the map while the next is prepared
   std::string Validate() const;  // "" or "group.field: reason"
 };
 

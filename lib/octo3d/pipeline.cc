@@ -43,11 +43,16 @@ Pipeline::Pipeline(const Options& options) : options_(options), map_(options.map
 
 Result Pipeline::Process(const Sweep& sweep, const MotionHint& hint) {
   if (utime_ && sweep.utime <= *utime_) return MakeResult(SweepStatus::kStale, {});
+  StartClock();
   const std::vector<Patch> patches = MakePatches(sweep, options_.patches, options_.map.range_noise_m);
+  Charge(Stage::kCondense);
+  AwaitInsertion();
   if (map_.num_cells() == 0 && !options_.localise_only) return Start(sweep, patches);
 
   const TimedPatches timed{patches, FirstPointTime(sweep), BridgeTimeTo(sweep)};
-  const RegistrationResult registration = RegisterFromAnywhere(timed, ToRelativeMotion(hint));
+  bool searched = false;
+  const RegistrationResult registration = RegisterFromAnywhere(timed, ToRelativeMotion(hint), searched);
+  Charge(Stage::kRegister);
 
   const bool good = IsGood(registration);
   belief_ = good ? registration.belief : registration.prediction;
@@ -56,7 +61,10 @@ Result Pipeline::Process(const Sweep& sweep, const MotionHint& hint) {
   const SweepStatus doubt = patches.empty() ? SweepStatus::kNoPoints : SweepStatus::kDoubtful;
   Result result = MakeResult(good ? SweepStatus::kTracking : doubt, registration);
   result.patches = static_cast<int>(patches.size());
+  result.searched = good && searched;
   result.inserted = good && !options_.localise_only && Insert(sweep, registration.motion);
+  Charge(Stage::kInsert);
+  result.stage_ms = stage_ms_;
   return result;
 }
 
@@ -67,6 +75,8 @@ Result Pipeline::Start(const Sweep& sweep, const std::vector<Patch>& patches) {
   Result result = MakeResult(patches.empty() ? SweepStatus::kNoPoints : SweepStatus::kStarted, {});
   result.patches = static_cast<int>(patches.size());
   result.inserted = Insert(sweep, MotionSegment(belief_.mean, belief_.mean, SweepDuration(sweep)));
+  Charge(Stage::kInsert);
+  result.stage_ms = stage_ms_;
   return result;
 }
 
@@ -84,7 +94,8 @@ double Pipeline::BridgeTimeTo(const Sweep& sweep) {
 }
 
 // From the prediction; where that leads to nothing good, from what a wider search makes of it, and of standing still.
-RegistrationResult Pipeline::RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint) {
+RegistrationResult Pipeline::RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint,
+                                                  bool& searched) {
   const MotionSegment predicted = PredictMotion(belief_, hint, patches.duration_s);
   RegistrationResult best = Register(map_, patches, belief_, hint, predicted, options_.registration);
   MotionState still = belief_.mean;
@@ -97,7 +108,9 @@ RegistrationResult Pipeline::RegisterFromAnywhere(const TimedPatches& patches, c
     to.T_map_body = SearchCoarsely(map_, patches, motion, options_.search).T_map_body;
     const MotionSegment found(belief_.mean, to, patches.duration_s);
     const RegistrationResult other = Register(map_, patches, belief_, hint, found, options_.registration);
-    if (other.inlier_ratio * other.matched > best.inlier_ratio * best.matched) best = other;
+    if (other.inlier_ratio * other.matched <= best.inlier_ratio * best.matched) continue;
+    best = other;
+    searched = true;
   }
   return best;
 }
@@ -120,8 +133,38 @@ bool Pipeline::Insert(const Sweep& sweep, const MotionSegment& motion) {
     if (!InRange(point, options_.patches)) continue;
     points.push_back((poses[slots.SlotOf(point.dt_us)] * Eigen::Vector3d(point.x, point.y, point.z)).cast<float>());
   }
-  if (!points.empty()) map_.Insert(points, motion.to().T_map_body.translation.cast<float>());
-  return !points.empty();
+  if (points.empty()) return false;
+  const auto insert = [this, points = std::move(points), viewpoint = motion.to().T_map_body.translation] {
+    map_.Insert(points, viewpoint.cast<float>());
+  };
+  if (options_.threads > 1) {
+    insertion_ = std::async(std::launch::async, insert);
+  } else {
+    insert();
+  }
+  return true;
+}
+
+void Pipeline::AwaitInsertion() const {
+  if (insertion_.valid()) insertion_.get();
+}
+
+const SurfelMap& Pipeline::map() const {
+  AwaitInsertion();
+  return map_;
+}
+
+void Pipeline::StartClock() {
+  stage_ms_ = {};
+  if (now_ms_) last_ms_ = now_ms_();
+}
+
+// Adds the time since the last call to a stage.
+void Pipeline::Charge(Stage stage) {
+  if (!now_ms_) return;
+  const double now = now_ms_();
+  stage_ms_[static_cast<size_t>(stage)] += now - last_ms_;
+  last_ms_ = now;
 }
 
 RelativeMotion Pipeline::ToRelativeMotion(const MotionHint& hint) const {
@@ -156,6 +199,7 @@ Result Pipeline::MakeResult(SweepStatus status, const RegistrationResult& regist
 }
 
 void Pipeline::Reset() {
+  AwaitInsertion();
   map_.Clear();
   SetPose(Pose3{});
 }
@@ -165,6 +209,9 @@ void Pipeline::SetPose(const Pose3& T_map_body) {
   utime_.reset();
 }
 
-void Pipeline::SetMap(SurfelMap map) { map_ = std::move(map); }
+void Pipeline::SetMap(SurfelMap map) {
+  AwaitInsertion();
+  map_ = std::move(map);
+}
 
 }  // namespace lcmslam::octo3d

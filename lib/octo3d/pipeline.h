@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <future>
 #include <optional>
 #include <vector>
 
@@ -30,6 +33,9 @@ struct MotionHint {
   std::optional<Pose3> odometry;
 };
 
+enum class Stage { kCondense, kRegister, kInsert };
+inline constexpr std::array kStageNames = {"condense", "register", "insert"};
+
 struct Result {
   SweepStatus status = SweepStatus::kNoPoints;
   int64_t utime = 0;  // us; of the pose: the sweep's last point, but of the sweep before when kStale
@@ -43,14 +49,19 @@ struct Result {
   int matched = 0;
   double inlier_ratio = 0.0;
   double residual_m = 0.0;
+  bool searched = false;  // the prediction had led nowhere: found by the wider search
   bool inserted = false;
+  std::array<double, kStageNames.size()> stage_ms{};  // zeros without a stopwatch
 };
 
 // NOctoSLAM: registers each sweep of a multi-line lidar to a surfel octree and adds it. Map frame = the lidar's frame
-// at the end of the first sweep, unless SetPose() was called before. Not thread-safe; same input, same output.
+// at the end of the first sweep, unless SetPose() was called before. Not thread-safe; same input, same output, with
+// any number of Options::threads.
 class Pipeline {
  public:
   explicit Pipeline(const Options& options);  // Validate()d
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
 
   // Points that are not finite or out of range are skipped. hint: motion since the sweep processed last.
   Result Process(const Sweep& sweep, const MotionHint& hint = {});
@@ -60,15 +71,22 @@ class Pipeline {
   void SetLocaliseOnly(bool localise_only) { options_.localise_only = localise_only; }
   void SetMap(SurfelMap map);  // a loaded map; the next sweep is registered to it
 
-  const SurfelMap& map() const { return map_; }
+  // A monotonic clock in milliseconds for Result::stage_ms; never influences anything else.
+  void SetStopwatch(std::function<double()> now_ms) { now_ms_ = std::move(now_ms); }
+
+  // With the last sweep in it.
+  const SurfelMap& map() const;
   const Options& options() const { return options_; }
 
  private:
   Result Start(const Sweep& sweep, const std::vector<Patch>& patches);
   double BridgeTimeTo(const Sweep& sweep);
-  RegistrationResult RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint);
+  RegistrationResult RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint, bool& searched);
   bool IsGood(const RegistrationResult& registration) const;
   bool Insert(const Sweep& sweep, const MotionSegment& motion);
+  void AwaitInsertion() const;
+  void StartClock();
+  void Charge(Stage stage);
   RelativeMotion ToRelativeMotion(const MotionHint& hint) const;
   Result MakeResult(SweepStatus status, const RegistrationResult& registration) const;
 
@@ -76,6 +94,10 @@ class Pipeline {
   SurfelMap map_;
   std::optional<int64_t> utime_;  // of the last sweep
   StateBelief belief_;            // at utime_
+  std::function<double()> now_ms_;
+  double last_ms_ = 0.0;
+  std::array<double, kStageNames.size()> stage_ms_{};  // of the sweep in hand
+  mutable std::future<void> insertion_;                // under way in a second thread; goes before map_
 };
 
 }  // namespace lcmslam::octo3d

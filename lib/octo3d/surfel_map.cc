@@ -19,6 +19,7 @@ PlaneMatch SurfelMap::FindNear(const Eigen::Vector3d& p, int level) const {
   return impl_->FindNear(p, std::clamp(level, 0, impl_->options.levels - 1));
 }
 std::vector<Surfel> SurfelMap::ChangedSince(uint32_t revision) const { return impl_->ChangedSince(revision); }
+std::vector<Surfel> SurfelMap::InTurn(size_t& turn, size_t count) const { return impl_->InTurn(turn, count); }
 std::vector<LeafRecord> SurfelMap::Leaves() const { return impl_->Leaves(); }
 void SurfelMap::Restore(std::span<const LeafRecord> leaves, std::span<const Eigen::Vector3f> viewpoints) {
   Clear();

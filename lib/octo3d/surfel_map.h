@@ -16,7 +16,7 @@ namespace lcmslam::octo3d {
 
 // A flat piece of surface: one octree cell seen from outside. Map frame, metres.
 struct Surfel {
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();     // on the plane, within the cell
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  // unit, towards where it was last seen from
   float cell_m = 0.0F;                                // edge of its cell
   float thickness_m = 0.0F;                           // standard deviation across the plane
@@ -63,8 +63,11 @@ class SurfelMap {
   // as dear as Find().
   PlaneMatch FindNear(const Eigen::Vector3d& p, int level) const;
 
-  // The finest planar cells that changed after `revision` (0: all). Order depends on the insertions only.
+  // The finest planar cells that were fitted anew after `revision` (0: all). Order depends on the insertions only.
   std::vector<Surfel> ChangedSince(uint32_t revision) const;
+  // About `count` surfels or more, from `turn` on, which is moved on: 0, then what came out, again and again, goes
+  // round the whole map.
+  std::vector<Surfel> InTurn(size_t& turn, size_t count) const;
 
   // Every leaf, sorted by key; Restore() builds the same map from them.
   std::vector<LeafRecord> Leaves() const;

@@ -28,6 +28,7 @@ class SurfelMap::Impl {
   PlaneMatch Find(const Eigen::Vector3d& p) const;
   PlaneMatch FindNear(const Eigen::Vector3d& p, int level) const;
   std::vector<Surfel> ChangedSince(uint32_t since) const;
+  std::vector<Surfel> InTurn(size_t& turn, size_t count) const;
   std::vector<LeafRecord> Leaves() const;
 
   const MapOptions options;
@@ -62,7 +63,9 @@ class SurfelMap::Impl {
   void Refit(SurfelNode* node, const Key& key, int level) const;
   bool IsPlanar(const PointStatistics& statistics, const PlaneFit& fit) const;
   void FindOnPath(const Key& key, const Eigen::Vector3d& p, double& best_score, PlaneMatch& best) const;
-  bool Collect(const SurfelNode* node, int level, uint32_t since, std::vector<Surfel>& surfels) const;
+  Key BlockCorner(uint64_t block_key) const;
+  bool Collect(const SurfelNode* node, const Key& key, int level, uint32_t since, std::vector<Surfel>& surfels) const;
+  Surfel ToSurfel(const SurfelCell& cell, const Key& key, int level) const;
   void CollectLeaves(const SurfelNode* node, const Key& key, int level, std::vector<LeafRecord>& leaves) const;
 
   std::vector<std::vector<Touched>> touched;  // by level; of the insertion under way

@@ -153,6 +153,7 @@ void SurfelMap::Impl::Refit(SurfelNode* node, const Key& key, int level) const {
   plane.height_var = static_cast<float>(fit.variances[0] / statistics.count + tilt_m * tilt_m);
   plane.per_extent = static_cast<float>(1.0 / extent_var);
   plane.count = static_cast<float>(node->cell().statistics.count);
+  plane.revision = revision;
   plane.planar = IsPlanar(statistics, fit);
 }
 

@@ -20,6 +20,7 @@ struct CellPlane {
   float height_var = 0.0F;     // of the plane at its mean; at distance d: height_var (1 + d^2 per_extent)
   float per_extent = 0.0F;     // 1 / the smaller variance along the plane
   float count = 0.0F;          // points at the last fit; 0: never fitted
+  uint32_t revision = 0;       // of the map at the last fit
   bool planar = false;
 
   bool operator==(const CellPlane&) const = default;

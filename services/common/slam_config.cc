@@ -1,5 +1,6 @@
 #include "common/slam_config.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/planar_slam_service.h"
@@ -35,10 +36,10 @@ void BindPose(ConfigBinder bind, Pose2& pose) {
 void BindPose(ConfigBinder bind, Pose3& pose) {
   Eigen::Vector3d& p = pose.translation;
   bind("x_m", p.x())("y_m", p.y())("z_m", p.z());
-  const Eigen::Matrix3d R = pose.rotation.toRotationMatrix();
-  double roll_rad = std::atan2(R(2, 1), R(2, 2));
-  double pitch_rad = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-  double yaw_rad = Yaw(pose.rotation);
+  const Eigen::Quaterniond& q = pose.rotation;
+  double roll_rad = std::atan2(2.0 * (q.w() * q.x() + q.y() * q.z()), 1.0 - 2.0 * (q.x() * q.x() + q.y() * q.y()));
+  double pitch_rad = std::asin(std::clamp(2.0 * (q.w() * q.y() - q.z() * q.x()), -1.0, 1.0));
+  double yaw_rad = Yaw(q);
   bind("roll_rad", roll_rad)("pitch_rad", pitch_rad)("yaw_rad", yaw_rad);
   pose.rotation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
                   Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *

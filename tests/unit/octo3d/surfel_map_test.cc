@@ -1,10 +1,12 @@
 #include "octo3d/surfel_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -142,6 +144,38 @@ TEST(SurfelMap, ChangedSinceGivesWhatChanged) {
   ASSERT_FALSE(changed.empty());
   for (const Surfel& s : changed) EXPECT_GT(s.mean.x(), 9.0F);
   EXPECT_GT(map.ChangedSince(0).size(), changed.size());
+}
+
+// Cells are cubes whose corners are whole multiples of their edge: who receives a surfel finds its cell from its mean.
+TEST(SurfelMap, SurfelsLieOnTheirPlaneInCellsOfTheirOwn) {
+  SurfelMap map{MapOptions{}};
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.1, 0, 1).normalized();
+  map.Insert(NoisyPlane(5, 20000, {0, 0, 0.4}, normal, 2.0, 0.02), Eigen::Vector3f(0, 0, 2));  // crosses cell borders
+  std::set<std::array<long, 4>> cells;
+  for (const Surfel& s : map.ChangedSince(0)) {
+    const auto cell = [&](int axis) { return std::lround(std::floor(s.mean[axis] / s.cell_m)); };
+    EXPECT_TRUE(cells.insert({cell(0), cell(1), cell(2), std::lround(s.cell_m / 0.2F)}).second);
+    EXPECT_NEAR(normal.dot(s.mean.cast<double>() - Eigen::Vector3d(0, 0, 0.4)), 0.0, 0.03);
+  }
+  EXPECT_GT(cells.size(), 100U);
+}
+
+TEST(SurfelMap, InTurnGoesRoundTheWholeMap) {
+  SurfelMap map{MapOptions{}};
+  size_t turn = 0;
+  EXPECT_TRUE(map.InTurn(turn, 10).empty());
+  map.Insert(NoisyPlane(3, 20000, {0, 0, 0.1}, {0, 0, 1}, 3.0, 0.01), Eigen::Vector3f(0, 0, 2));
+  const auto key = [](const Surfel& s) { return std::array<float, 3>{s.mean.x(), s.mean.y(), s.mean.z()}; };
+  std::set<std::array<float, 3>> all, seen;
+  for (const Surfel& s : map.ChangedSince(0)) all.insert(key(s));
+  const size_t rounds = 2 * all.size() / 10;
+  for (size_t i = 0; i < rounds; ++i) {
+    const auto some = map.InTurn(turn, 10);
+    EXPECT_GE(some.size(), 10U);
+    EXPECT_LT(some.size(), all.size());
+    for (const Surfel& s : some) seen.insert(key(s));
+  }
+  EXPECT_EQ(seen, all);
 }
 
 TEST(SurfelMap, RestoreBuildsTheSameLeaves) {
