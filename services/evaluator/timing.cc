@@ -29,6 +29,7 @@ void TimingCollector::Add(const Event& event) {
     if (!(step_ms > 0.0)) return;
     System& system = systems_[prefix];
     system.step_ms.push_back(step_ms);
+    system.iterations.push_back(diagnostics->iterations);
     for (size_t i = 0; i < stages.size(); ++i) system.stages_ms[diagnostics->stage_name[i]].push_back(stages[i]);
   } else if (const std::string service = PrefixBefore("_SLAM_STATUS", event.channel); !service.empty()) {
     const auto status = Decode<service_status_t>(event.data);
@@ -43,6 +44,7 @@ bool TimingCollector::Report(const std::string& pose_channel, result::Timing& me
   if (entry == systems_.end()) return false;
   const System& system = entry->second;
   if (!system.step_ms.empty()) *message.mutable_step_ms() = ToMessage(Summarize(system.step_ms));
+  if (!system.iterations.empty()) *message.mutable_iterations() = ToMessage(Summarize(system.iterations));
   for (const auto& [name, ms] : system.stages_ms) {
     result::Timing::Stage& stage = *message.add_stages();
     stage.set_name(name);

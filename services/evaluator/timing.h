@@ -24,6 +24,7 @@ class TimingCollector {
  private:
   struct System {
     std::vector<double> step_ms;                           // all stages of one scan
+    std::vector<double> iterations;                        // of the registration of one scan
     std::map<std::string, std::vector<double>> stages_ms;  // by name of the stage
     std::vector<double> latency_p50_ms, latency_p99_ms;    // of one second each
   };

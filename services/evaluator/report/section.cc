@@ -11,6 +11,7 @@
 #include "evaluator/report/encodings.h"
 #include "evaluator/report/figures.h"
 #include "evaluator/report/map_image.h"
+#include "evaluator/report/speed_table.h"
 #include "evaluator/report/study_tables.h"
 
 namespace lcmslam::report {
@@ -104,9 +105,12 @@ void AddSummary(const Study& study, const Group& group, Section& section) {
     return;
   }
   section.tables.push_back(SystemsTable(study, group));
-  if (comparisons.empty()) return;
-  section.tables.push_back(RatioTable(study, group));
-  section.tables.push_back(ComparisonTable(comparisons));
+  if (!comparisons.empty()) {
+    section.tables.push_back(RatioTable(study, group));
+    section.tables.push_back(ComparisonTable(comparisons));
+  }
+  Table speed = SpeedTable(study, group);
+  if (!speed.rows.empty()) section.tables.push_back(std::move(speed));
 }
 
 Figure PoseBoxes(const std::string& name, const Study& study, const PooledErrors& pooled) {

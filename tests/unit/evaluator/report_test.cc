@@ -13,6 +13,7 @@
 #include "evaluator/report/numbers.h"
 #include "evaluator/report/overview.h"
 #include "evaluator/report/page.h"
+#include "evaluator/report/speed_table.h"
 #include "evaluator/report/study.h"
 #include "evaluator/report/study_tables.h"
 #include "evaluator/result.h"
@@ -121,6 +122,32 @@ TEST_F(Report, MediansOfGroupsSideBySide) {
   const Table table = MedianTable(LoadStudy({folder_ / "g", folder_ / "h"}, {}));
   EXPECT_THAT(table.header, ElementsAre("system", "g", "h"));
   EXPECT_THAT(table.rows, ElementsAre(ElementsAre("a", "20.0", "20.0"), ElementsAre("b", "40.0 (1 of 3)", "40.0")));
+}
+
+// 4 iterations in 0.2 ms, 6 in 0.2 ms: 20,000 and 30,000 a second.
+TEST(SpeedTable, CountsIterationsOfTheRegistration) {
+  Study study{.systems = {"a", "b"}, .groups = {}, .failure_rule = {}};
+  Group group;
+  for (const double iterations : {4.0, 6.0}) {
+    Episode episode;
+    result::Timing& timing = *episode.runs["a"].metrics.mutable_timing();
+    timing.mutable_step_ms()->set_median(0.5);
+    timing.mutable_step_ms()->set_p95(0.9);
+    timing.mutable_iterations()->set_mean(iterations);
+    for (const char* name : {"register", "fuse"}) {
+      result::Timing::Stage& stage = *timing.add_stages();
+      stage.set_name(name);
+      stage.mutable_ms()->set_mean(0.2);
+      stage.mutable_ms()->set_median(0.2);
+      stage.mutable_ms()->set_p95(0.3);
+    }
+    episode.runs["b"] = {};
+    group.episodes.push_back(episode);
+  }
+  EXPECT_THAT(SpeedTable(study, group).rows,
+              ElementsAre(ElementsAre("a", "whole scan", "0.500", "0.900", "", ""),
+                          ElementsAre("a", "fuse", "0.200", "0.300", "", ""),
+                          ElementsAre("a", "register", "0.200", "0.300", "5.00", "25000")));
 }
 
 TEST(SummarizeEpisodes, RanksFailuresWorst) {
