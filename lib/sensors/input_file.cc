@@ -2,6 +2,7 @@
 
 #include <array>
 #include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include <boost/iostreams/filter/bzip2.hpp>
@@ -47,6 +48,15 @@ std::unique_ptr<std::istream> OpenInput(const std::filesystem::path& path) {
   if (magic.starts_with("\x1f\x8b")) return std::make_unique<FilteredFile>(std::move(file), io::gzip_decompressor());
   if (magic == "BZh") return std::make_unique<FilteredFile>(std::move(file), io::bzip2_decompressor());
   return file;
+}
+
+std::string ReadInput(const std::filesystem::path& path) {
+  const std::unique_ptr<std::istream> input = OpenInput(path);
+  try {
+    return {std::istreambuf_iterator<char>(*input), {}};
+  } catch (const std::ios_base::failure& error) {
+    throw BadInput(fmt::format("{}: damaged: {}", path.string(), error.what()));
+  }
 }
 
 }  // namespace lcmslam

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <istream>
 #include <memory>
+#include <string>
 
 namespace lcmslam {
 
@@ -10,5 +11,8 @@ namespace lcmslam {
 // the file cannot be opened; damaged compression ends in boost::iostreams errors, which derive from
 // std::ios_base::failure, thrown while reading.
 [[nodiscard]] std::unique_ptr<std::istream> OpenInput(const std::filesystem::path& path);
+
+// All of it at once. Throws BadInput when it cannot be read or unpacked.
+[[nodiscard]] std::string ReadInput(const std::filesystem::path& path);
 
 }  // namespace lcmslam

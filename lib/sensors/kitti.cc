@@ -1,10 +1,12 @@
 #include "sensors/kitti.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include <Eigen/SVD>
+#include <boost/date_time/gregorian/gregorian_types.hpp>
 #include <fmt/format.h>
 
 #include "sensors/bad_input.h"
@@ -33,6 +35,46 @@ void ForEachLine(std::string_view text, const Handler& handle) {
   } catch (const BadInput& error) {
     throw BadInput(fmt::format("line {}: {}", lines.number(), error.what()));
   }
+}
+
+// The numbers between separators: "13:02:25.9".
+std::array<double, 3> ParseTriple(std::string_view word, char separator) {
+  const size_t first = word.find(separator, 1), second = word.rfind(separator);
+  if (first == std::string_view::npos || second <= first) throw BadInput(fmt::format("'{}' is no date or time", word));
+  return {ParseNumber<double>(word.substr(0, first)), ParseNumber<double>(word.substr(first + 1, second - first - 1)),
+          ParseNumber<double>(word.substr(second + 1))};
+}
+
+// Days since 1970 of "2011-09-26".
+double ParseDate(std::string_view word) {
+  using boost::gregorian::date;
+  const auto [year, month, day] = ParseTriple(word, '-');
+  const auto is_whole = [](double value, int min, int max) {
+    return value >= min && value <= max && value == std::floor(value);
+  };
+  if (!is_whole(year, 1970, 9999) || !is_whole(month, 1, 12) || !is_whole(day, 1, 31)) throw BadInput("no date");
+  const auto month_number = static_cast<unsigned short>(month), day_number = static_cast<unsigned short>(day);
+  if (day_number >
+      boost::gregorian::gregorian_calendar::end_of_month_day(static_cast<unsigned short>(year), month_number))
+    throw BadInput("no date");
+  return static_cast<double>(
+      (date(static_cast<unsigned short>(year), month_number, day_number) - date(1970, 1, 1)).days());
+}
+
+// utime from either form of a line.
+int64_t ParseTime(Words words) {
+  double days = 0.0, seconds = 0.0;
+  if (words.size() == 1) {
+    seconds = ParseNumber<double>(words[0]);
+  } else if (words.size() == 2) {
+    const auto [hour, minute, second] = ParseTriple(words[1], ':');
+    days = ParseDate(words[0]);
+    seconds = 3600.0 * hour + 60.0 * minute + second;
+  } else {
+    throw BadInput("no time");
+  }
+  if (!(std::abs(seconds) < kLatest_s)) throw BadInput("no time");
+  return std::llround(days) * 86'400'000'000 + std::llround(1e6 * seconds);
 }
 
 Pose3 ParsePose(Words words) {
@@ -67,11 +109,7 @@ std::vector<SweepPoint> DecodeKittiPoints(std::span<const uint8_t> file) {
 
 std::vector<int64_t> ParseKittiTimes(std::string_view text) {
   std::vector<int64_t> utimes;
-  ForEachLine(text, [&](Words words) {
-    const double seconds = ParseNumber<double>(words[0]);
-    if (words.size() != 1 || !(std::abs(seconds) < kLatest_s)) throw BadInput("no time");
-    utimes.push_back(std::llround(1e6 * seconds));
-  });
+  ForEachLine(text, [&](Words words) { utimes.push_back(ParseTime(words)); });
   return utimes;
 }
 

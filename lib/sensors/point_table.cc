@@ -31,11 +31,26 @@ const Column& Need(const PointTable& table, std::string_view name) {
   return *column;
 }
 
-void SetTimes(const Column& times, double us_per_unit, std::vector<SweepPoint>& points) {
-  if (points.empty()) return;
-  const double last = std::ranges::max(times);
+struct Times {
+  const Column* column = nullptr;  // none: unknown
+  double us_per_unit = 0.0;
+  double latest = 0.0;  // in units
+};
+
+Times FindTimes(const PointTable& table) {
+  constexpr double kUsPerNanosecond = 1e-3, kUsPerSecond = 1e6;
+  constexpr double kLatest_s = 1e14;  // no seconds since 1970 are more
+  const Column* nanoseconds = Find(table, {"t", "offset_time"});
+  const Column* column = nanoseconds != nullptr ? nanoseconds : Find(table, {"time", "timestamp"});
+  if (column == nullptr || column->empty()) return {};
+  const double latest = std::ranges::max(*column);
+  const bool in_nanoseconds = nanoseconds != nullptr || latest > kLatest_s;
+  return {column, in_nanoseconds ? kUsPerNanosecond : kUsPerSecond, latest};
+}
+
+void SetTimes(const Times& times, std::vector<SweepPoint>& points) {
   for (size_t i = 0; i < points.size(); ++i) {
-    const double dt_us = us_per_unit * (times[i] - last);
+    const double dt_us = times.us_per_unit * ((*times.column)[i] - times.latest);
     if (!(dt_us >= -kLongestSweep_us)) throw BadInput("points with absurd times");
     points[i].dt_us = static_cast<int32_t>(std::lround(dt_us));
   }
@@ -68,12 +83,14 @@ std::vector<SweepPoint> ToSweepPoints(const PointTable& table) {
     if (intensity != nullptr) points[i].intensity = static_cast<float>((*intensity)[i]);
   }
   if (const Column* rings = Find(table, {"ring", "laser_id"})) SetRings(*rings, points);
-  if (const Column* nanoseconds = Find(table, {"t"})) {
-    SetTimes(*nanoseconds, 1e-3, points);
-  } else if (const Column* seconds = Find(table, {"time", "timestamp"})) {
-    SetTimes(*seconds, 1e6, points);
-  }
+  if (const Times times = FindTimes(table); times.column != nullptr) SetTimes(times, points);
   return points;
+}
+
+std::optional<double> LatestTime_us(const PointTable& table) {
+  const Times times = FindTimes(table);
+  if (times.column == nullptr) return std::nullopt;
+  return times.us_per_unit * times.latest;
 }
 
 }  // namespace lcmslam

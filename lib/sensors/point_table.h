@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,13 @@ struct PointTable {
 };
 
 // Columns x, y, z (m) are needed; taken where they are: intensity (or i, reflectivity), ring (or laser_id), and the
-// points' times: t (integer nanoseconds, as Ouster writes them) or time, timestamp (seconds), of which only the
-// differences count: the latest is the sweep's utime. Non-finite coordinates stay. Throws BadInput when x, y or z is
-// missing, or a ring or the spread of the times (over an hour) is absurd. Pure.
+// points' times, of which only the differences count: the latest is the sweep's utime. Non-finite coordinates stay.
+// Throws BadInput when x, y or z is missing, or a ring or the spread of the times (over an hour) is absurd. Pure.
 [[nodiscard]] std::vector<SweepPoint> ToSweepPoints(const PointTable& table);
+
+// The latest of the points' times, us, after whatever their origin is; none where there are no times or points. They
+// stand in t or offset_time (integer nanoseconds: Ouster, Livox), time (seconds: Velodyne), or timestamp (since 1970,
+// in seconds: Hesai, RoboSense; or nanoseconds: Livox).
+[[nodiscard]] std::optional<double> LatestTime_us(const PointTable& table);
 
 }  // namespace lcmslam

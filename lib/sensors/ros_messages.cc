@@ -13,22 +13,10 @@ namespace {
 
 constexpr double kMaxScanDuration_s = 10.0;  // longer: time_increment is not what it should be
 
-struct Header {
-  int64_t utime;
-  std::string frame;
-};
-
 std::string GetFrame(ByteReader& reader) {
   std::string frame = reader.GetString();
   if (frame.starts_with('/')) frame.erase(0, 1);
   return frame;
-}
-
-Header GetHeader(ByteReader& reader) {
-  reader.Get<uint32_t>();  // sequence
-  const int64_t seconds = reader.Get<uint32_t>();
-  const int64_t nanoseconds = reader.Get<uint32_t>();
-  return {seconds * 1'000'000 + (nanoseconds + 500) / 1000, GetFrame(reader)};
 }
 
 // Position, then quaternion x, y, z, w: the layout of geometry_msgs/Pose and geometry_msgs/Transform.
@@ -38,15 +26,28 @@ Pose3 GetPose(ByteReader& reader) {
   return {{v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}};
 }
 
-void RequireEmpty(const ByteReader& reader) {
-  if (!reader.empty()) throw BadInput(fmt::format("{} bytes more than the message type has", reader.size()));
+Eigen::Vector3d GetVector(ByteReader& reader) {
+  Eigen::Vector3d v;
+  for (double& value : v) value = reader.Get<double>();
+  return v;
 }
 
 }  // namespace
 
+RosHeader GetRosHeader(ByteReader& reader) {
+  reader.Get<uint32_t>();  // sequence
+  const int64_t seconds = reader.Get<uint32_t>();
+  const int64_t nanoseconds = reader.Get<uint32_t>();
+  return {seconds * 1'000'000 + (nanoseconds + 500) / 1000, GetFrame(reader)};
+}
+
+void RequireEmpty(const ByteReader& reader) {
+  if (!reader.empty()) throw BadInput(fmt::format("{} bytes more than the message type has", reader.size()));
+}
+
 RosLaserScan DecodeRosLaserScan(std::span<const uint8_t> data) {
   ByteReader reader(data);
-  const Header header = GetHeader(reader);
+  const RosHeader header = GetRosHeader(reader);
   RosLaserScan scan;
   scan.utime = header.utime;
   scan.frame = header.frame;
@@ -64,6 +65,20 @@ RosLaserScan DecodeRosLaserScan(std::span<const uint8_t> data) {
   return scan;
 }
 
+ImuSample DecodeRosImu(std::span<const uint8_t> data) {
+  constexpr size_t kQuaternionBytes = 4 * sizeof(double), kCovarianceBytes = 9 * sizeof(double);
+  ByteReader reader(data);
+  ImuSample sample;
+  sample.utime = GetRosHeader(reader).utime;
+  reader.Take(kQuaternionBytes + kCovarianceBytes);
+  sample.angular_velocity_radps = GetVector(reader);
+  reader.Take(kCovarianceBytes);
+  sample.specific_force_mps2 = GetVector(reader);
+  reader.Take(kCovarianceBytes);
+  RequireEmpty(reader);
+  return sample;
+}
+
 bool IsRosPoseType(std::string_view type) {
   return type == "geometry_msgs/PoseStamped" || type == "geometry_msgs/PoseWithCovarianceStamped" ||
          type == "geometry_msgs/TransformStamped" || type == "nav_msgs/Odometry";
@@ -72,7 +87,7 @@ bool IsRosPoseType(std::string_view type) {
 RosPose DecodeRosPose(std::string_view type, std::span<const uint8_t> data) {
   constexpr size_t kCovarianceBytes = 36 * sizeof(double), kTwistBytes = 6 * sizeof(double);
   ByteReader reader(data);
-  const Header header = GetHeader(reader);
+  const RosHeader header = GetRosHeader(reader);
   RosPose pose{header.utime, header.frame, "", {}};
   if (type == "nav_msgs/Odometry" || type == "geometry_msgs/TransformStamped") pose.child_frame = GetFrame(reader);
   pose.T_frame_child = GetPose(reader);
@@ -88,7 +103,7 @@ std::vector<RosPose> DecodeRosTransforms(std::span<const uint8_t> data) {
   ByteReader reader(data);
   std::vector<RosPose> transforms;
   for (uint32_t left = reader.Get<uint32_t>(); left > 0; --left) {
-    const Header header = GetHeader(reader);
+    const RosHeader header = GetRosHeader(reader);
     const std::string child_frame = GetFrame(reader);
     transforms.push_back({header.utime, header.frame, child_frame, GetPose(reader)});
   }

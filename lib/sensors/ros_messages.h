@@ -7,9 +7,20 @@
 #include <vector>
 
 #include "geometry/pose3.h"
+#include "lidar/imu_sample.h"
 #include "lidar/planar_scan.h"
+#include "sensors/byte_reader.h"
 
 namespace lcmslam {
+
+// std_msgs/Header, with which stamped messages begin.
+struct RosHeader {
+  int64_t utime = 0;  // us
+  std::string frame;  // without a leading '/'
+};
+[[nodiscard]] RosHeader GetRosHeader(ByteReader& reader);
+// For the end of a message: throws BadInput when bytes are left.
+void RequireEmpty(const ByteReader& reader);
 
 // sensor_msgs/LaserScan.
 struct RosLaserScan {
@@ -34,6 +45,9 @@ struct RosPose {
 // Decoders of serialized messages. They throw BadInput when the bytes are shorter or longer than the type's fields.
 // Pure.
 [[nodiscard]] RosLaserScan DecodeRosLaserScan(std::span<const uint8_t> data);
+
+// sensor_msgs/Imu. What is not finite stays.
+[[nodiscard]] ImuSample DecodeRosImu(std::span<const uint8_t> data);
 
 // geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, nav_msgs/Odometry.
 [[nodiscard]] bool IsRosPoseType(std::string_view type);

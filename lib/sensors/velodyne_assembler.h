@@ -21,6 +21,8 @@ class VelodyneAssembler {
   // The begun sweep, when nothing follows; none before the first cut.
   [[nodiscard]] std::optional<Sweep> Finish();
 
+  int64_t packet_utime() const { return packet_utime_; }  // of the first firing of the last packet; 0 before any
+
  private:
   struct Begun {
     std::vector<SweepPoint> points;

@@ -8,6 +8,7 @@
 #include "sensor-bridge/rosbag_survey.h"
 #include "sensors/bad_input.h"
 #include "sensors/ros_messages.h"
+#include "sensors/ros_point_cloud.h"
 #include "sensors/rosbag_reader.h"
 
 namespace lcmslam {
@@ -18,18 +19,21 @@ bool LooksDown(const Pose3& T_base_lidar) { return (T_base_lidar.rotation * Eige
 // Publishes the messages of one bag by a plan.
 class RosbagPublisher {
  public:
-  RosbagPublisher(const RosbagPlan& plan, SensorPublisher& publisher) : plan_(plan), publisher_(publisher) {
-    for (const auto& [topic, T_base_lidar] : plan.mountings) {
+  RosbagPublisher(const RosbagSurvey& survey, const RosbagPlan& plan, SensorPublisher& publisher)
+      : plan_(plan), publisher_(publisher) {
+    for (const auto& [topic, T_base_sensor] : plan.mountings) {
       const Pose3 turned{{}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()))};
-      publisher.SetMounting(plan.lidar_channels.at(topic),
-                            LooksDown(T_base_lidar) ? T_base_lidar * turned : T_base_lidar);
+      const bool is_turned = survey.types.at(topic) == kRosLaserScan && LooksDown(T_base_sensor);
+      publisher.SetMounting(plan.sensor_channels.at(topic), is_turned ? T_base_sensor * turned : T_base_sensor);
     }
   }
 
   void Publish(const RosbagMessage& message) {
-    const std::string& topic = message.connection->topic;
-    if (plan_.lidar_channels.contains(topic)) {
-      PublishScan(message);
+    const auto& [topic, type] = *message.connection;
+    if (const auto channel = plan_.sensor_channels.find(topic); channel != plan_.sensor_channels.end()) {
+      if (type == kRosLaserScan) PublishScan(channel->second, message);
+      if (type == kRosPointCloud) PublishSweep(channel->second, message);
+      if (type == kRosImu) PublishImu(channel->second, message);
     } else if (topic == plan_.odometry_topic) {
       const RosPose pose = DecodeRosPose(message.connection->type, message.data);
       PublishOdometry(pose);
@@ -44,13 +48,26 @@ class RosbagPublisher {
   }
 
  private:
-  void PublishScan(const RosbagMessage& message) {
-    const std::string& topic = message.connection->topic;
+  void PublishScan(const std::string& channel, const RosbagMessage& message) {
     RosLaserScan scan = DecodeRosLaserScan(message.data);
-    if (scan.utime == 0) scan.utime = message.received_utime;  // a driver without a clock
-    const auto mounting = plan_.mountings.find(topic);
+    scan.utime = StampOf(scan.utime, message);
+    const auto mounting = plan_.mountings.find(message.connection->topic);
     const bool upside_down = mounting != plan_.mountings.end() && LooksDown(mounting->second);
-    publisher_.PublishScan(plan_.lidar_channels.at(topic), ToPlanarScan(scan, upside_down));
+    publisher_.PublishScan(channel, ToPlanarScan(scan, upside_down));
+  }
+  void PublishSweep(const std::string& channel, const RosbagMessage& message) {
+    RosPointCloud cloud = DecodeRosPointCloud(message.data);
+    cloud.utime = StampOf(cloud.utime, message);
+    publisher_.PublishSweep(channel, ToSweep(cloud));
+  }
+  void PublishImu(const std::string& channel, const RosbagMessage& message) {
+    ImuSample sample = DecodeRosImu(message.data);
+    sample.utime = StampOf(sample.utime, message);
+    publisher_.PublishImu(channel, sample);
+  }
+  // Drivers without a clock leave the stamp 0.
+  static int64_t StampOf(int64_t utime, const RosbagMessage& message) {
+    return utime == 0 ? message.received_utime : utime;
   }
   void PublishOdometry(const RosPose& pose) {
     publisher_.PublishPose(kOdometryChannel, {pose.utime, pose.T_frame_child * plan_.T_odometry_child_base});
@@ -65,8 +82,8 @@ class RosbagPublisher {
 void ImportRosbag(const RosbagImportOptions& options, SensorPublisher& publisher, const Note& note) {
   const RosbagSurvey survey = SurveyRosbag(options.file);
   const RosbagPlan plan = PlanImport(survey, options, note);
-  publisher.ExpectScans(TotalScans(ScanTopics(survey)));
-  RosbagPublisher bag(plan, publisher);
+  publisher.ExpectScans(TotalScans(survey));
+  RosbagPublisher bag(survey, plan, publisher);
   RosbagReader reader(options.file);
   for (auto message = reader.Next(); message && !StopRequested(); message = reader.Next()) {
     try {

@@ -14,15 +14,19 @@
 namespace lcmslam {
 namespace {
 
-constexpr const char* kLaserScan = "sensor_msgs/LaserScan";
 constexpr const char* kOdometry = "nav_msgs/Odometry";
+
+bool IsSensorType(const std::string& type) {
+  return type == kRosLaserScan || type == kRosPointCloud || type == kRosImu;
+}
 
 void Learn(const RosbagMessage& message, RosbagSurvey& survey) {
   const auto& [topic, type] = *message.connection;
   survey.types[topic] = type;
   ++survey.messages[topic];
-  if (type == kLaserScan && !survey.frames.contains(topic)) {
-    survey.frames[topic] = DecodeRosLaserScan(message.data).frame;
+  if (IsSensorType(type) && !survey.frames.contains(topic)) {
+    ByteReader reader(message.data);
+    survey.frames[topic] = GetRosHeader(reader).frame;
   } else if (IsRosPoseType(type) && !survey.child_frames.contains(topic)) {
     survey.child_frames[topic] = DecodeRosPose(type, message.data).child_frame;
   } else if (IsRosTransformsType(type)) {
@@ -39,6 +43,10 @@ std::map<std::string, int64_t> TopicsWhere(const RosbagSurvey& survey, const Wan
     if (wanted(topic, type)) topics[topic] = survey.messages.at(topic);
   }
   return topics;
+}
+
+std::map<std::string, int64_t> TopicsOf(const RosbagSurvey& survey, const std::string& wanted) {
+  return TopicsWhere(survey, [&](const std::string&, const std::string& type) { return type == wanted; });
 }
 
 std::string Busiest(const std::map<std::string, int64_t>& topics) {
@@ -96,10 +104,19 @@ void PlanOdometryFromTf(const RosbagSurvey& survey, RosbagPlan& plan) {
   }
 }
 
+std::map<std::string, std::string> PlanChannels(const RosbagSurvey& survey, const RosbagImportOptions& options) {
+  std::map<std::string, std::string> channels =
+      SensorChannels(TopicsOf(survey, kRosLaserScan), options.scan_topic, kMainLidarChannel);
+  channels.merge(SensorChannels(TopicsOf(survey, kRosPointCloud), options.cloud_topic, kMultiLineChannel));
+  if (channels.empty()) throw CommandError(ExitCode::kBadInput, survey.problem);
+  channels.merge(SensorChannels(TopicsOf(survey, kRosImu), options.imu_topic, kImuChannel));
+  return channels;
+}
+
 void PlanMountings(const RosbagSurvey& survey, RosbagPlan& plan, const Note& note) {
   for (const auto& [topic, frame] : survey.frames) {
     const auto mounting = survey.tree.Find(plan.base_frame, frame);
-    const std::string line = fmt::format("{} -> {}: ", topic, plan.lidar_channels.at(topic));
+    const std::string line = fmt::format("{} -> {}: ", topic, plan.sensor_channels.at(topic));
     if (!mounting) {
       note(fmt::format("{}no tf between '{}' and '{}', mounting unknown", line, plan.base_frame, frame));
       continue;
@@ -118,7 +135,7 @@ void PlanMountings(const RosbagSurvey& survey, RosbagPlan& plan, const Note& not
 
 RosbagSurvey SurveyRosbag(const std::filesystem::path& file) {
   RosbagSurvey survey;
-  survey.problem = fmt::format("{}: no laser scans", file.string());
+  survey.problem = fmt::format("{}: no laser scans or point clouds", file.string());
   RosbagReader reader(file);
   try {
     while (const auto message = reader.Next()) Learn(*message, survey);
@@ -128,13 +145,13 @@ RosbagSurvey SurveyRosbag(const std::filesystem::path& file) {
   return survey;
 }
 
-std::map<std::string, int64_t> ScanTopics(const RosbagSurvey& survey) {
-  return TopicsWhere(survey, [](const std::string&, const std::string& type) { return type == kLaserScan; });
+int64_t TotalScans(const RosbagSurvey& survey) {
+  return TotalScans(TopicsOf(survey, kRosLaserScan)) + TotalScans(TopicsOf(survey, kRosPointCloud));
 }
 
 RosbagPlan PlanImport(const RosbagSurvey& survey, const RosbagImportOptions& options, const Note& note) {
   RosbagPlan plan;
-  plan.lidar_channels = LidarChannels(ScanTopics(survey), options.scan_topic, survey.problem);
+  plan.sensor_channels = PlanChannels(survey, options);
   plan.ground_truth_topic = ChooseGroundTruth(survey, options.ground_truth_topic);
   plan.odometry_topic = ChooseOdometryTopic(survey, options.odometry_topic, plan.ground_truth_topic);
   if (!plan.odometry_topic.empty()) plan.odometry_child_frame = survey.child_frames.at(plan.odometry_topic);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <lcmslam/imu_t.hpp>
+#include <lcmslam/lidar_packet_t.hpp>
 #include <lcmslam/planar_scan_t.hpp>
 #include <lcmslam/point_cloud_chunk_t.hpp>
 #include <lcmslam/pose_t.hpp>
@@ -54,7 +55,25 @@ void SensorPublisher::PublishSweep(const std::string& channel, const Sweep& swee
 }
 
 void SensorPublisher::PublishImu(const std::string& channel, const ImuSample& sample) {
+  if (!sample.angular_velocity_radps.allFinite() || !sample.specific_force_mps2.allFinite()) {
+    ++invalid_samples_;
+    return;
+  }
   Push(sample.utime, {Kind::kImu, channel, Encode(ToMessage(sample))});
+}
+
+void SensorPublisher::PublishPacket(const std::string& channel, int64_t received_utime, uint16_t port,
+                                    std::span<const uint8_t> payload) {
+  lidar_packet_t packet{};
+  packet.utime = received_utime;
+  packet.num_bytes = static_cast<int32_t>(payload.size());
+  packet.port = port;
+  packet.payload.assign(payload.begin(), payload.end());
+  Push(received_utime, {Kind::kPacket, channel, Encode(packet)});
+}
+
+void SensorPublisher::PublishAsIs(const std::string& channel, int64_t utime, std::vector<uint8_t> message) {
+  Push(utime, {Kind::kOther, channel, std::move(message)});
 }
 
 void SensorPublisher::PublishPose(const std::string& channel, const StampedPose& pose) {
@@ -67,17 +86,23 @@ void SensorPublisher::PublishPose(const std::string& channel, const StampedPose&
   Push(pose.utime, {Kind::kPose, channel, Encode(ToMessage(rigid))});
 }
 
-void SensorPublisher::Finish() {
+void SensorPublisher::Flush() {
   order_.Flush([this](int64_t utime, const Message& message) { Emit(utime, message); });
+}
+
+void SensorPublisher::Finish() {
+  Flush();
   progress_.reset();
 }
 
 std::string SensorPublisher::Summary() const {
-  constexpr auto kNouns = std::to_array<std::string_view>({"scans", "poses", "sweeps", "IMU samples"});  // by Kind
+  constexpr auto kNouns =
+      std::to_array<std::string_view>({"scans", "poses", "sweeps", "IMU samples", "packets", "messages"});  // by Kind
   std::string line;
   for (const auto& [channel, count] : counts_)
     line += fmt::format("{} {} on {}, ", count.messages, kNouns[static_cast<size_t>(count.kind)], channel);
   if (invalid_poses_ > 0) line += fmt::format("{} invalid poses left out, ", invalid_poses_);
+  if (invalid_samples_ > 0) line += fmt::format("{} invalid IMU samples left out, ", invalid_samples_);
   if (order_.jumps() > 0) line += fmt::format("time jumped back {} times, ", order_.jumps());
   return fmt::format("{}{:.1f} s", line, static_cast<double>(duration_us_) / 1e6);
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,17 +32,25 @@ class SensorPublisher {
   // In chunks, each at the time of its last point as a sensor would send it; where the points' times are unknown,
   // spread over the 0.1 s before the sweep's stamp.
   void PublishSweep(const std::string& channel, const Sweep& sweep);
+  // What is not finite is counted and left out.
   void PublishImu(const std::string& channel, const ImuSample& sample);
   // What is no pose (not finite, no unit quaternion) is counted and left out.
   void PublishPose(const std::string& channel, const StampedPose& pose);
+  // What a lidar sent in one datagram, as it came.
+  void PublishPacket(const std::string& channel, int64_t received_utime, uint16_t port,
+                     std::span<const uint8_t> payload);
+  // A message of another log.
+  void PublishAsIs(const std::string& channel, int64_t utime, std::vector<uint8_t> message);
   // Publishes what is still held back for the order of stamps.
+  void Flush();
+  // Flush, when nothing follows.
   void Finish();
 
   // "213 scans on LIDAR_2D, 638 poses on ODOMETRY; 25.4 s".
   std::string Summary() const;
 
  private:
-  enum class Kind { kScan, kPose, kSweep, kImu };
+  enum class Kind { kScan, kPose, kSweep, kImu, kPacket, kOther };
   struct Message {
     Kind kind;
     std::string channel;
@@ -72,6 +81,7 @@ class SensorPublisher {
   std::map<std::string, Count> counts_;           // by channel
   std::map<std::string, int32_t> sweep_numbers_;  // of the channel's next one
   int64_t invalid_poses_ = 0;
+  int64_t invalid_samples_ = 0;
   int64_t duration_us_ = 0;
   int64_t last_utime_ = 0;
   bool started_ = false;

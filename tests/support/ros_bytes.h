@@ -63,6 +63,37 @@ inline std::string RosLaserScanBytes(int64_t utime, const std::string& frame, fl
       .data();
 }
 
+// A field of a sensor_msgs/PointCloud2 that is one number.
+struct RosField {
+  enum Type : uint8_t { kUint8 = 2, kUint16 = 4, kInt32 = 5, kUint32 = 6, kFloat32 = 7, kFloat64 = 8 };
+  std::string name;
+  uint32_t offset = 0;
+  Type type = kFloat32;
+};
+
+// `points` are rows of point_bytes in one line.
+inline std::string RosPointCloudBytes(int64_t utime, const std::string& frame, const std::vector<RosField>& fields,
+                                      uint32_t point_bytes, const std::string& points) {
+  RosBytes bytes;
+  const auto count = static_cast<uint32_t>(points.size()) / point_bytes;
+  bytes.PutHeader(utime, frame).Put(uint32_t{1}).Put(count).Put(static_cast<uint32_t>(fields.size()));
+  for (const RosField& field : fields)
+    bytes.PutString(field.name).Put(field.offset).Put(static_cast<uint8_t>(field.type)).Put(uint32_t{1});
+  bytes.Put(uint8_t{0}).Put(point_bytes).Put(count * point_bytes).PutString(points).Put(uint8_t{1});
+  return bytes.data();
+}
+
+inline std::string RosImuBytes(int64_t utime, const std::string& frame, const Eigen::Vector3d& angular_velocity,
+                               const Eigen::Vector3d& acceleration) {
+  const std::string covariance(9 * sizeof(double), '\0');
+  RosBytes bytes;
+  bytes.PutHeader(utime, frame).PutRaw(std::string(4 * sizeof(double), '\0')).PutRaw(covariance);
+  for (const double value : angular_velocity) bytes.Put(value);
+  bytes.PutRaw(covariance);
+  for (const double value : acceleration) bytes.Put(value);
+  return bytes.PutRaw(covariance).data();
+}
+
 inline std::string RosPoseStampedBytes(int64_t utime, const Pose3& pose) {
   return RosBytes().PutHeader(utime, "map").PutPose(pose).data();
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,60 +10,22 @@
 #include <lcmslam/pose_t.hpp>
 #include <lcmslam/pose_xyt_t.hpp>
 
-#include "bus/log_reader.h"
 #include "bus/log_writer.h"
 #include "bus/messages.h"
-#include "common/command_line.h"
 #include "geometry/angles.h"
-#include "sensor-bridge/import_command.h"
 #include "support/real_data.h"
 #include "support/rosbag_builder.h"
 #include "support/temporary_file.h"
+#include "unit/sensor-bridge/bridge_runs.h"
 
 namespace lcmslam {
 namespace {
 
 using testing::ElementsAre;
 
-int Bridge(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "sensor-bridge");
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  CLI::App app("test", "sensor-bridge");
-  std::function<ExitCode()> command;
-  AddImportCommand(app, command);
-  return RunCommandLine(app, static_cast<int>(argv.size()), argv.data(), [&] { return command(); });
+Pose2 PoseOn(const Imported& log, const std::string& channel, size_t i = 0) {
+  return ToPose2(DecodePose(log.On(channel).at(i).data).value().pose);
 }
-
-// What `import FORMAT` makes of a file.
-struct Imported {
-  int exit_code = 0;
-  std::vector<Event> events;
-
-  Imported(const std::string& format, const std::filesystem::path& file, std::vector<std::string> options = {}) {
-    const TemporaryFile out;
-    options.insert(options.begin(), {"import", format, file.string(), "--log-out", out.path().string(), "--quiet"});
-    exit_code = Bridge(options);
-    if (std::filesystem::file_size(out.path()) == 0) return;
-    LogReader reader(out.path());
-    for (Event event; reader.Next(event);) events.push_back(event);
-  }
-  std::vector<std::string> Channels() const {
-    std::vector<std::string> channels;
-    for (const Event& event : events) channels.push_back(event.channel);
-    return channels;
-  }
-  std::vector<Event> On(const std::string& channel) const {
-    std::vector<Event> chosen;
-    for (const Event& event : events) {
-      if (event.channel == channel) chosen.push_back(event);
-    }
-    return chosen;
-  }
-  Pose2 PoseOn(const std::string& channel, size_t i = 0) const {
-    return ToPose2(DecodePose(On(channel).at(i).data).value().pose);
-  }
-};
 
 Imported ImportText(const std::string& text, const std::vector<std::string>& options = {}) {
   const TemporaryFile file(text);
@@ -84,8 +45,8 @@ TEST(ImportCarmen, OdometryComesBeforeItsScanAndStampsRise) {
   EXPECT_EQ(log.exit_code, 0);
   EXPECT_THAT(log.Channels(), ElementsAre("ODOMETRY", "ODOMETRY", "LIDAR_2D_EXTRINSICS", "LIDAR_2D", "ODOMETRY"));
   EXPECT_EQ(log.events[3].utime, 1'100'000);
-  EXPECT_NEAR(log.PoseOn("ODOMETRY", 1).x(), 0.5, 1e-9);
-  EXPECT_NEAR(log.PoseOn("ODOMETRY", 1).yaw(), 0.1, 1e-9) << "between the ODOM lines, not the copy in the FLASER line";
+  EXPECT_NEAR(PoseOn(log, "ODOMETRY", 1).x(), 0.5, 1e-9);
+  EXPECT_NEAR(PoseOn(log, "ODOMETRY", 1).yaw(), 0.1, 1e-9) << "between the ODOM lines, not the copy in the FLASER line";
   const auto mounting = DecodeExtrinsics(log.events[2].data);
   ASSERT_TRUE(mounting);
   EXPECT_EQ(mounting->translation.x(), 0.1);
@@ -94,7 +55,7 @@ TEST(ImportCarmen, OdometryComesBeforeItsScanAndStampsRise) {
 TEST(ImportCarmen, WithoutOdomLinesTheScanBringsItsOdometry) {
   const Imported log = ImportText(kFlaser);
   EXPECT_THAT(log.Channels(), ElementsAre("ODOMETRY", "LIDAR_2D_EXTRINSICS", "LIDAR_2D"));
-  EXPECT_EQ(log.PoseOn("ODOMETRY").x(), 0.5);
+  EXPECT_EQ(PoseOn(log, "ODOMETRY").x(), 0.5);
 }
 
 TEST(ImportCarmen, ScanDelayMovesOdometryNotScans) {
@@ -102,7 +63,7 @@ TEST(ImportCarmen, ScanDelayMovesOdometryNotScans) {
                                   {"--scan-delay", "0.05"});
   EXPECT_EQ(log.On("LIDAR_2D")[0].utime, 1'100'000);
   EXPECT_EQ(log.On("ODOMETRY")[0].utime, 1'050'000);
-  EXPECT_NEAR(log.PoseOn("ODOMETRY", 1).x(), 0.25, 1e-9) << "the odometry of 1.05 s";
+  EXPECT_NEAR(PoseOn(log, "ODOMETRY", 1).x(), 0.25, 1e-9) << "the odometry of 1.05 s";
 }
 
 TEST(ImportCarmen, MountingsComeOnceASecond) {
@@ -167,8 +128,8 @@ TEST(ImportRosbag, FindsLidarsTruthAndOdometry) {
   EXPECT_EQ(log.On("LIDAR_2D_BACK_SCAN").size(), 2U);
   EXPECT_TRUE(log.On("LIDAR_2D_BACK_SCAN_EXTRINSICS").empty()) << "tf does not say where it is";
   EXPECT_EQ(DecodeExtrinsics(log.On("LIDAR_2D_EXTRINSICS").at(0).data)->translation.x(), 0.4);
-  EXPECT_EQ(log.PoseOn("ODOMETRY").x(), 3.0);
-  EXPECT_EQ(log.PoseOn("GROUND_TRUTH").x(), 2.0);
+  EXPECT_EQ(PoseOn(log, "ODOMETRY").x(), 3.0);
+  EXPECT_EQ(PoseOn(log, "GROUND_TRUTH").x(), 2.0);
   int64_t last = 0;
   for (const Event& event : log.events) {
     EXPECT_GE(event.utime, last);
@@ -181,8 +142,8 @@ TEST(ImportRosbag, OptionsOverrideWhatIsFound) {
   const Imported log = ImportBag(bag, {"--scan-topic", "/back/scan", "--odometry-topic", "/mocap/robot", "--base-frame",
                                        "base_footprint", "--ground-truth-topic", "/wheels"});
   EXPECT_EQ(log.On("LIDAR_2D").size(), 2U);
-  EXPECT_EQ(log.PoseOn("ODOMETRY").x(), 2.0);
-  EXPECT_EQ(log.PoseOn("GROUND_TRUTH").x(), 3.0);
+  EXPECT_EQ(PoseOn(log, "ODOMETRY").x(), 2.0);
+  EXPECT_EQ(PoseOn(log, "GROUND_TRUTH").x(), 3.0);
   EXPECT_NEAR(DecodeExtrinsics(log.On("LIDAR_2D_FRONT_SCAN_EXTRINSICS").at(0).data)->translation.z(), 0.1, 1e-12);
   for (const char* option : {"--scan-topic", "--odometry-topic", "--ground-truth-topic", "--base-frame"})
     EXPECT_EQ(ImportBag(bag, {option, "/nothing"}).exit_code, 2) << option;
@@ -199,6 +160,39 @@ TEST(ImportRosbag, DamagedMessagesAndBags) {
   EXPECT_EQ(short_message.exit_code, 3);
   EXPECT_EQ(short_message.On("LIDAR_2D").size(), 1U);
   EXPECT_EQ(ImportBag(RosbagBuilder().Bytes()).exit_code, 3) << "no scans";
+}
+
+std::string CloudAndImuBag() {
+  const std::vector<RosField> fields{{"x", 0}, {"y", 4}, {"z", 8}, {"time", 12}};
+  std::string points;
+  for (const float time_s : {0.0F, 0.05F, 0.1F}) points += RosBytes().Put(5.0F).Put(0.0F).Put(0.0F).Put(time_s).data();
+  RosbagBuilder bag;
+  bag.Message("/tf", "tf2_msgs/TFMessage", 1,
+              RosTransformBytes(1'000'000, "base_link", "velodyne", {{0, 0, 0.5}, Eigen::Quaterniond::Identity()}));
+  for (int64_t i = 0; i < 3; ++i) {
+    const int64_t utime = 1'000'000 + 100'000 * i;
+    bag.Message("/points", "sensor_msgs/PointCloud2", utime, RosPointCloudBytes(utime, "velodyne", fields, 16, points));
+    bag.Message("/imu", "sensor_msgs/Imu", utime, RosImuBytes(utime, "imu", {0.1, 0, 0}, {0, 0, 9.8}));
+  }
+  bag.Message("/map", "sensor_msgs/PointCloud2", 1, RosPointCloudBytes(1'000'000, "map", fields, 16, points));
+  bag.Message("/imu", "sensor_msgs/Imu", 1, RosImuBytes(1'300'000, "imu", {NAN, 0, 0}, {0, 0, 9.8}));
+  return bag.Bytes();
+}
+
+TEST(ImportRosbag, CloudsAndImu) {
+  const Imported log = ImportBag(CloudAndImuBag());
+  EXPECT_EQ(log.exit_code, 0);
+  const std::vector<Sweep> sweeps = log.SweepsOn("LIDAR_3D");
+  ASSERT_EQ(sweeps.size(), 3U);
+  EXPECT_EQ(sweeps[0].utime, 1'100'000) << "the last point";
+  EXPECT_EQ(sweeps[0].points.at(1).dt_us, -50'000);
+  EXPECT_EQ(log.SweepsOn("LIDAR_3D_MAP").size(), 1U);
+  EXPECT_EQ(DecodeExtrinsics(log.On("LIDAR_3D_EXTRINSICS").at(0).data)->translation.z(), 0.5);
+  ASSERT_EQ(log.On("IMU").size(), 3U) << "and one that is not finite";
+  EXPECT_EQ(DecodeImu(log.On("IMU")[1].data)->specific_force_mps2.z(), 9.8);
+  EXPECT_EQ(ImportBag(CloudAndImuBag(), {"--cloud-topic", "/map"}).SweepsOn("LIDAR_3D").size(), 1U);
+  EXPECT_EQ(ImportBag(CloudAndImuBag(), {"--cloud-topic", "/imu"}).exit_code, 2);
+  EXPECT_EQ(ImportBag(CloudAndImuBag(), {"--imu-topic", "/other"}).exit_code, 2);
 }
 
 // An MBot log: a turn of an RPLidar, poses of both kinds, something else.
@@ -230,7 +224,7 @@ TEST(ImportMbot, ChannelsStampsAndSense) {
   const Imported log("mbot", file.path());
   EXPECT_EQ(log.exit_code, 0);
   EXPECT_THAT(log.Channels(), ElementsAre("ODOMETRY", "GROUND_TRUTH", "SLAM_POSE", "LIDAR_2D"));
-  EXPECT_EQ(log.PoseOn("GROUND_TRUTH").x(), 7.0);
+  EXPECT_EQ(PoseOn(log, "GROUND_TRUTH").x(), 7.0);
   EXPECT_EQ(log.On("LIDAR_2D")[0].utime, 5'099'000) << "the last beam";
   const auto angle = [&](const std::vector<std::string>& options) {
     return DecodeScan(Imported("mbot", file.path(), options).On("LIDAR_2D").at(0).data)->beams[10].angle_rad;
@@ -253,7 +247,7 @@ TEST(Import, BadUsageAndMissingFiles) {
   EXPECT_EQ(Bridge({"import"}), 2);
   EXPECT_EQ(Bridge({"import", "carmen"}), 2);
   EXPECT_EQ(Bridge({"import", "tarot", "x"}), 2);
-  for (const char* format : {"carmen", "rosbag", "mbot"}) {
+  for (const char* format : {"carmen", "rosbag", "mbot", "velodyne"}) {
     const TemporaryFile out;
     EXPECT_EQ(Bridge({"import", format, "/no/such/file", "--log-out", out.path()}), 3);
     const TemporaryFile rubbish(std::string(1000, '\xd1'));

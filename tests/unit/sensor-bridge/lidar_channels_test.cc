@@ -21,6 +21,13 @@ TEST(LidarChannels, ChosenIsMain) {
   EXPECT_THROW(LidarChannels({}, "", "none"), CommandError);
 }
 
+TEST(LidarChannels, OtherKindsHaveTheirOwn) {
+  EXPECT_EQ(SensorChannels({{"/os/points", 5}, {"/map", 1}}, "", "LIDAR_3D"),
+            (Channels{{"/os/points", "LIDAR_3D"}, {"/map", "LIDAR_3D_MAP"}}));
+  EXPECT_TRUE(SensorChannels({}, "", "IMU").empty());
+  EXPECT_THROW(SensorChannels({}, "/imu", "IMU"), CommandError);
+}
+
 TEST(LidarChannels, NamesFitLcm) {
   const std::string longest(200, 'x');
   const auto channels = LidarChannels({{longest, 1}, {"main", 2}}, "", "none");

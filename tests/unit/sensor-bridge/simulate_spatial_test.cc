@@ -11,7 +11,7 @@
 #include "bus/sweep_chunks.h"
 #include "sensor-bridge/simulate.h"
 #include "simulation/spatial_worlds.h"
-#include "unit/sensor-bridge/simulated.h"
+#include "unit/sensor-bridge/bridge_runs.h"
 
 namespace lcmslam {
 namespace {
@@ -35,13 +35,7 @@ SpatialEpisode SameEpisode() {
 
 TEST(SimulateSpatial, SweepsAreThoseOfTheEpisode) {
   const SpatialEpisode episode = SameEpisode();
-  std::vector<Sweep> sweeps;
-  SweepAssembler assembler;
-  for (const Event& event : Simulated(kEpisode).On("LIDAR_3D")) {
-    for (Sweep& sweep : assembler.Add(*DecodeChunk(event.data))) sweeps.push_back(std::move(sweep));
-  }
-  EXPECT_TRUE(assembler.Finish().empty());
-  EXPECT_EQ(assembler.missing(), 0);
+  const std::vector<Sweep> sweeps = Simulated(kEpisode).SweepsOn("LIDAR_3D");
   ASSERT_EQ(static_cast<int>(sweeps.size()), episode.num_frames());
   for (int i = 0; i < episode.num_frames(); ++i) {
     const Sweep expected = episode.Frame(i).sweep;

@@ -9,7 +9,7 @@
 
 #include "bus/messages.h"
 #include "simulation/planar_worlds.h"
-#include "unit/sensor-bridge/simulated.h"
+#include "unit/sensor-bridge/bridge_runs.h"
 
 namespace lcmslam {
 namespace {

@@ -45,8 +45,18 @@ TEST(Kitti, ParsesTimes) {
   EXPECT_THAT(ParseKittiTimes("0.000000e+00\n1.037359e-01\n\n 2.5 \r\n"), ElementsAre(0, 103'736, 2'500'000));
   EXPECT_TRUE(ParseKittiTimes("").empty());
   EXPECT_THAT(ErrorOf([] { (void)ParseKittiTimes("1\nx\n"); }), HasSubstr("line 2: 'x' is not a number"));
-  EXPECT_THAT(ErrorOf([] { (void)ParseKittiTimes("1\n1 2\n"); }), HasSubstr("line 2: no time"));
+  EXPECT_THAT(ErrorOf([] { (void)ParseKittiTimes("1\n1 2\n"); }), HasSubstr("line 2: '2' is no date or time"));
   EXPECT_THAT(ErrorOf([] { (void)ParseKittiTimes("nan\n"); }), HasSubstr("line 1: no time"));
+}
+
+TEST(Kitti, ParsesTimesOfRawDrives) {
+  EXPECT_THAT(ParseKittiTimes("1970-01-02 00:00:01.5\n2011-09-26 13:02:25.951199337\n"),
+              ElementsAre(86'401'500'000, 1'317'042'145'951'199));
+  EXPECT_THAT(ParseKittiTimes("2012-02-29 23:59:60"), ElementsAre(1'330'560'000'000'000)) << "leap day, leap second";
+  for (const char* bad : {"2011-02-29 00:00:00", "2011-13-01 00:00:00", "2011-09-26", "2011-09-26 13:02",
+                          "-5-1-1 0:0:0", "2011-09-26 13:02:nan", "2011-09-26 13:02:25 1", "2011.5-01-01 00:00:00"}) {
+    EXPECT_THAT(ErrorOf([&] { (void)ParseKittiTimes(bad); }), HasSubstr("line 1: ")) << bad;
+  }
 }
 
 TEST(Kitti, ParsesPosesAndCalibration) {
@@ -84,16 +94,14 @@ TEST(Kitti, TimesRunClockwiseFromTheBack) {
 TEST(Kitti, RealFiles) {
   const auto path = RealData("kitti_raw_0005/000000.bin");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const auto file = OpenInput(path);
-  const std::string bytes((std::istreambuf_iterator<char>(*file)), {});
+  const std::string bytes = ReadInput(path);
   const auto points = DecodeKittiPoints({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
   EXPECT_EQ(points.size(), 123'398u);
   int in_range = 0;
   for (const SweepPoint& p : points) in_range += std::hypot(p.x, p.y, p.z) < 120.0F && p.intensity <= 1.0F ? 1 : 0;
   EXPECT_EQ(in_range, 123'398);
 
-  const auto truth = OpenInput(RealData("hilti2021_uzh_run2/gt_lidar_kitti.txt"));
-  EXPECT_EQ(ParseKittiPoses(std::string((std::istreambuf_iterator<char>(*truth)), {})).size(), 40u);
+  EXPECT_EQ(ParseKittiPoses(ReadInput(RealData("hilti2021_uzh_run2/gt_lidar_kitti.txt"))).size(), 40u);
 }
 
 }  // namespace

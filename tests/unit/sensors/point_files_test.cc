@@ -231,6 +231,21 @@ TEST(ToSweepPoints, TakesWhatIsThere) {
   EXPECT_NEAR(seconds[1].dt_us, -100'000, 1);
 }
 
+TEST(ToSweepPoints, KnowsTheUnitsOfTimes) {
+  const auto check = [](const char* name, double first, double last, double latest_us, double tolerance_us) {
+    SCOPED_TRACE(name);
+    const PointTable table = Table({{name, {first, last}}});
+    EXPECT_NEAR(ToSweepPoints(table)[0].dt_us, -100'000, 1);
+    EXPECT_NEAR(*LatestTime_us(table), latest_us, tolerance_us);
+  };
+  check("t", 0.0, 1e8, 1e5, 1e-6);                                                      // Ouster: ns
+  check("offset_time", 5e7, 1.5e8, 1.5e5, 1e-6);                                        // Livox: ns
+  check("time", -0.1, 0.0, 0.0, 1e-6);                                                  // Velodyne: s
+  check("timestamp", 1600000000.0, 1600000000.1, 1.6e15 + 1e5, 1.0);                    // Hesai: s since 1970
+  check("timestamp", 1600000000000000000.0, 1600000000100000000.0, 1.6e15 + 1e5, 1.0);  // Livox: ns since 1970
+  EXPECT_FALSE(LatestTime_us(Table({})).has_value());
+}
+
 TEST(ToSweepPoints, RefusesAbsurdities) {
   const auto error_of = [](const PointTable& table) { return ErrorOf([&] { (void)ToSweepPoints(table); }); };
   EXPECT_THAT(error_of({}), HasSubstr("points without x"));
