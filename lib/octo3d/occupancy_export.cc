@@ -52,7 +52,10 @@ void WriteBt(const SurfelMap& map, const OccupancyExportOptions& options, std::o
   octomap::OcTree tree = ToOccupancy(map, options);
   tree.toMaxLikelihood();
   tree.prune();
-  tree.writeBinary(out);
+  // As tree.writeBinary() does, but for the line that Debian's build of it prints.
+  out << "# Octomap OcTree binary file\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
+      << tree.getResolution() << "\ndata\n";
+  tree.writeBinaryData(out);
 }
 
 }  // namespace lcmslam::octo3d

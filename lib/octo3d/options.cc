@@ -106,6 +106,7 @@ std::string Options::Validate() const {
       .Group("registration", registration.Validate())
       .Group("search", search.Validate())
       .Group("trust", trust.Validate())
+      .Field("max_points", max_points, 1000, 1e7)
       .Field("threads", threads, 1, 2)
       .Reason();
 }

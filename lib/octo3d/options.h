@@ -44,7 +44,7 @@ struct RegistrationOptions {
 
 // The search from a rough guess, when registration from the prediction is not believed.
 struct CoarseSearchOptions {
-  int max_patches = 800;
+  int max_patches = 300;
   int iterations = 25;
   double reach_m = 1.6;  // a patch looks for its surfel about this far away
   std::string Validate() const;
@@ -73,6 +73,7 @@ struct Options {
   CoarseSearchOptions search;
   TrustOptions trust;
   bool localise_only = false;    // the map stays as it is
+  int max_points = 20000;        // of a sweep; more are thinned evenly: they add time, not accuracy
   int threads = 1;               // 2: another one takes a sweep into the map while the next is prepared
   std::string Validate() const;  // "" or "group.field: reason"
 };

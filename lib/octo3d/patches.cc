@@ -8,6 +8,7 @@
 
 #include "lidar/pose_table.h"
 #include "octo3d/point_statistics.h"
+#include "octo3d/thinning.h"
 
 namespace lcmslam::octo3d {
 
@@ -122,14 +123,6 @@ class PatchMaker {
   const TimeSlots slots_;
   std::vector<Patch> patches_;
 };
-
-// Every k-th: k not a whole number, so that the kept ones spread evenly.
-void Thin(std::vector<Patch>& patches, size_t max_patches) {
-  const size_t size = patches.size();
-  if (size <= max_patches) return;
-  for (size_t i = 0; i < max_patches; ++i) patches[i] = patches[i * size / max_patches];
-  patches.resize(max_patches);
-}
 
 }  // namespace
 

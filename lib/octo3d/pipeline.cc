@@ -8,6 +8,7 @@
 #include "lidar/pose_table.h"
 #include "octo3d/coarse_search.h"
 #include "octo3d/patches.h"
+#include "octo3d/thinning.h"
 
 namespace lcmslam::octo3d {
 
@@ -41,9 +42,11 @@ void Slow(MotionState& state) {
 
 Pipeline::Pipeline(const Options& options) : options_(options), map_(options.map) { Reset(); }
 
-Result Pipeline::Process(const Sweep& sweep, const MotionHint& hint) {
-  if (utime_ && sweep.utime <= *utime_) return MakeResult(SweepStatus::kStale, {});
+Result Pipeline::Process(const Sweep& dense_sweep, const MotionHint& hint) {
+  if (utime_ && dense_sweep.utime <= *utime_) return MakeResult(SweepStatus::kStale, {});
   StartClock();
+  Sweep sweep = dense_sweep;
+  Thin(sweep.points, static_cast<size_t>(options_.max_points));
   const std::vector<Patch> patches = MakePatches(sweep, options_.patches, options_.map.range_noise_m);
   Charge(Stage::kCondense);
   AwaitInsertion();

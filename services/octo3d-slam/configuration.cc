@@ -55,7 +55,7 @@ void BindOptions(config::Octo3dSlam& config, Octo3dSlamOptions& options) {
   if (config.has_mounting()) BindPose(bind.Sub("mounting"), options.service.T_body_lidar);
   BindPose(bind.Sub("initial_pose"), options.service.T_map_body_initial);
   bind("localize_only", options.service.localize_only)("load_map", options.service.load_map);
-  bind("threads", slam.threads);
+  bind("threads", slam.threads)("max_points", slam.max_points);
   BindMap(bind.Sub("map"), slam.map);
   BindPatches(bind.Sub("patches"), slam.patches);
   BindRegistration(bind.Sub("registration"), slam.registration);
