@@ -6,9 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <lcmslam/evaluation_t.hpp>
+#include <lcmslam/imu_t.hpp>
+#include <lcmslam/lidar_packet_t.hpp>
 #include <lcmslam/occupancy_grid_t.hpp>
 #include <lcmslam/planar_lidar_t.hpp>
 #include <lcmslam/planar_scan_t.hpp>
+#include <lcmslam/point_cloud_chunk_t.hpp>
 #include <lcmslam/pose_t.hpp>
 #include <lcmslam/pose_xyt_t.hpp>
 #include <lcmslam/rigid_transform_t.hpp>
@@ -16,6 +19,7 @@
 #include <lcmslam/service_status_t.hpp>
 #include <lcmslam/slam_command_t.hpp>
 #include <lcmslam/slam_diagnostics_t.hpp>
+#include <lcmslam/surfel_chunk_t.hpp>
 
 #include "bus/log_reader.h"
 #include "common/run_service.h"
@@ -43,8 +47,9 @@ std::map<int64_t, std::string> NamesOf() {
 // Types of other packages with the same fields go by the same name.
 std::string TypeName(int64_t fingerprint) {
   static const std::map<int64_t, std::string> names =
-      NamesOf<evaluation_t, occupancy_grid_t, planar_lidar_t, planar_scan_t, pose_t, pose_xyt_t, rigid_transform_t,
-              sdf_tile_t, service_status_t, slam_command_t, slam_diagnostics_t>();
+      NamesOf<evaluation_t, imu_t, lidar_packet_t, occupancy_grid_t, planar_lidar_t, planar_scan_t, point_cloud_chunk_t,
+              pose_t, pose_xyt_t, rigid_transform_t, sdf_tile_t, service_status_t, slam_command_t, slam_diagnostics_t,
+              surfel_chunk_t>();
   const auto known = names.find(fingerprint);
   return known != names.end() ? known->second : fmt::format("{:016x}", static_cast<uint64_t>(fingerprint));
 }

@@ -1,5 +1,6 @@
 #include "sensor-bridge/bridge_output.h"
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -15,6 +16,11 @@ namespace {
 constexpr int64_t kJumpUs = 10'000'000;  // a step of the data's clock that nobody wants to wait for
 constexpr std::chrono::milliseconds kNap(50);
 
+// What default kernel buffers (208 kB) take without loss while a receiver is kept waiting for a few milliseconds: of a
+// sweep sent in one go, most is lost.
+constexpr double kReceiverBytesPerSecond = 40e6;
+constexpr std::chrono::milliseconds kReceiverBacklog(2);
+
 }  // namespace
 
 std::string OutputOptions::Validate() const {
@@ -26,10 +32,14 @@ void AddOutputOptions(CLI::App& app, OutputOptions& options) {
   auto* log_out = app.add_option("--log-out", options.log_out, "write this LCM log instead of publishing live");
   app.add_option("--lcm-url", options.lcm_url, "bus; default $LCM_DEFAULT_URL, else udpm with ttl=0")
       ->excludes(log_out);
-  app.add_option("--speed", options.speed, "live: data seconds per second, 0: as fast as it goes")
-      ->excludes(log_out)
-      ->capture_default_str();
   app.add_flag("--quiet", options.quiet, "no progress bar, no notes, no summary");
+}
+
+void AddPacedOutputOptions(CLI::App& app, OutputOptions& options) {
+  AddOutputOptions(app, options);
+  app.add_option("--speed", options.speed, "live: data seconds per second, 0: as fast as it goes")
+      ->excludes(app.get_option("--log-out"))
+      ->capture_default_str();
 }
 
 BridgeOutput::BridgeOutput(const OutputOptions& options)
@@ -47,6 +57,7 @@ void BridgeOutput::Publish(int64_t utime, const std::string& channel, Bytes data
     return;
   }
   WaitFor(utime);
+  WaitForReceivers(data.size());
   bus_->Publish(channel, data);
   health_.CountReceived();
   health_.CountProcessed();
@@ -74,6 +85,12 @@ void BridgeOutput::WaitFor(int64_t utime) {
     PublishStatusOnceASecond();
     std::this_thread::sleep_for(std::min<Clock::duration>(due - now, kNap));
   }
+}
+
+void BridgeOutput::WaitForReceivers(size_t bytes) {
+  std::this_thread::sleep_until(received_ - kReceiverBacklog);
+  const auto duration = std::chrono::duration<double>(static_cast<double>(bytes) / kReceiverBytesPerSecond);
+  received_ = std::max(received_, Clock::now()) + std::chrono::duration_cast<Clock::duration>(duration);
 }
 
 void BridgeOutput::PublishStatusOnceASecond() {

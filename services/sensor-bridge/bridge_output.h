@@ -25,12 +25,14 @@ struct OutputOptions {
 
   std::string Validate() const;
 };
-// --log-out, --lcm-url, --speed, --quiet.
+// --log-out, --lcm-url, --quiet.
 void AddOutputOptions(CLI::App& app, OutputOptions& options);
+// The same and --speed, for what can be played at any pace.
+void AddPacedOutputOptions(CLI::App& app, OutputOptions& options);
 
 // Where the bridge's messages go: an LCM log, each event stamped with its message's time; or a live bus, at the pace of
-// the messages' times, with a service_status_t once a second. Once SIGTERM or SIGINT came, nothing waits any more.
-// Throws CommandError as LogWriter and LiveBus do. One thread.
+// the messages' times but never faster than receivers can take it, with a service_status_t once a second. Once SIGTERM
+// or SIGINT came, nothing waits any more. Throws CommandError as LogWriter and LiveBus do. One thread.
 class BridgeOutput {
  public:
   explicit BridgeOutput(const OutputOptions& options);
@@ -47,6 +49,7 @@ class BridgeOutput {
   using Clock = std::chrono::steady_clock;
 
   void WaitFor(int64_t utime);
+  void WaitForReceivers(size_t bytes);
   void PublishStatusOnceASecond();
 
   OutputOptions options_;
@@ -54,6 +57,7 @@ class BridgeOutput {
   std::optional<LiveBus> bus_;
   Health health_;
   Clock::time_point next_status_;
+  Clock::time_point received_;  // when receivers are done with what was sent, at the least
   // Message time `origin_utime_` is due at `origin_`.
   Clock::time_point origin_;
   int64_t origin_utime_ = 0;

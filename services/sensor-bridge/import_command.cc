@@ -54,7 +54,7 @@ CLI::App* AddFormat(CLI::App& import, const std::string& name, const std::string
                     OutputOptions& output) {
   CLI::App* format = import.add_subcommand(name, description);
   format->add_option("file", options.file, "the log")->required();
-  AddOutputOptions(*format, output);
+  AddPacedOutputOptions(*format, output);
   return format;
 }
 

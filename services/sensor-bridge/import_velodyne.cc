@@ -29,6 +29,7 @@ bool IsLcmLog(const std::filesystem::path& path) {
 void ImportLcmLog(const VelodyneImportOptions& options, SensorPublisher& publisher, VelodyneBridge& bridge) {
   LogReader reader(options.file);
   for (Event event; !StopRequested() && reader.Next(event);) {
+    if (event.channel == kMultiLineChannel) continue;  // comes anew
     if (!IsPacket(event.data)) {
       publisher.PublishAsIs(event.channel, event.utime, std::move(event.data));
       continue;

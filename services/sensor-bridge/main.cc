@@ -3,6 +3,7 @@
 #include "common/command_line.h"
 #include "sensor-bridge/import_command.h"
 #include "sensor-bridge/simulate_command.h"
+#include "sensor-bridge/velodyne_command.h"
 
 int main(int argc, char** argv) {
   CLI::App app("Brings sensors, logs and simulations onto the bus or into an LCM log", "sensor-bridge");
@@ -10,5 +11,6 @@ int main(int argc, char** argv) {
   std::function<lcmslam::ExitCode()> command;
   lcmslam::AddImportCommand(app, command);
   lcmslam::AddSimulateCommand(app, command);
+  lcmslam::AddVelodyneCommand(app, command);
   return lcmslam::RunCommandLine(app, argc, argv, [&] { return command(); });
 }

@@ -78,7 +78,7 @@ void AddSimulateCommand(CLI::App& app, std::function<ExitCode()>& command) {
       ->allow_extra_args(false);
   simulate->add_flag("--print-config", options->print_config, "print the episode with its defaults and end");
   simulate->add_option("--bound", options->bound_file, "write the Cramer-Rao bound of each scan to this CSV file");
-  AddOutputOptions(*simulate, options->output);
+  AddPacedOutputOptions(*simulate, options->output);
   simulate->callback([options, &command] { command = [options] { return Simulate(*options); }; });
 }
 

@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <random>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,10 +19,17 @@
 #include "sdf2d/map_file.h"
 #include "sensors/bad_input.h"
 #include "sensors/carmen_log.h"
+#include "sensors/input_file.h"
+#include "sensors/kitti.h"
+#include "sensors/pcd.h"
+#include "sensors/ply.h"
+#include "sensors/ros_point_cloud.h"
 #include "sensors/rosbag_reader.h"
+#include "sensors/velodyne_reader.h"
 #include "support/rosbag_builder.h"
 #include "support/sample_messages.h"
 #include "support/temporary_file.h"
+#include "support/velodyne_capture.h"
 #include "trajectory/read.h"
 #include "trajectory/relations.h"
 
@@ -29,7 +38,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMutations = 5000;
+constexpr int kMutations = 10'000;
 
 // "" or the one line with which the file was refused.
 using Read = std::function<std::string(const fs::path&)>;
@@ -70,6 +79,85 @@ std::string Bag() {
   RosbagBuilder builder;
   for (int i = 0; i < 9; ++i) builder.Message("/scan", "sensor_msgs/LaserScan", 1'000'000 + i, std::string(50, 'x'));
   return builder.Bytes();
+}
+
+std::string PointCloudBag() {
+  const std::vector<RosField> fields{{"x", 0}, {"y", 4}, {"z", 8}, {"time", 12}};
+  RosBytes points;
+  for (int i = 0; i < 40; ++i)
+    points.Put(5.0F).Put(0.1F * static_cast<float>(i)).Put(0.0F).Put(0.002F * static_cast<float>(i));
+  RosbagBuilder builder;
+  for (int64_t utime : {1'000'000, 1'100'000, 1'200'000})
+    builder.Message("/points", "sensor_msgs/PointCloud2", utime,
+                    RosPointCloudBytes(utime, "lidar", fields, 16, points.data()));
+  return builder.Bytes();
+}
+
+std::string ReadPointCloudBag(const fs::path& path) {
+  RosbagReader reader(path);
+  while (const auto message = reader.Next()) {
+    try {
+      (void)ToSweep(DecodeRosPointCloud(message->data));
+    } catch (const BadInput& error) {
+      throw BadInput(path.string() + ": " + error.what());
+    }
+  }
+  return "";
+}
+
+std::string KittiPoints() {
+  const std::vector<float> numbers(400, 1.25F);
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float)};
+}
+
+std::string KittiTimes() {
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += fmt::format("{}.5\n2011-09-26 13:02:{}.25\n", i, 10 + i);
+  return text;
+}
+
+std::string KittiPoses() {
+  std::string text;
+  for (int i = 0; i < 20; ++i) text += fmt::format("1 0 0 {} 0 1 0 0.5 0 0 1 0\n", i);
+  return text;
+}
+
+std::vector<std::string> VelodynePackets() {
+  std::vector<std::string> payloads = VelodyneTurns(1);
+  payloads.resize(10);
+  return payloads;
+}
+
+std::string PcdFile() {
+  std::string text =
+      "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nPOINTS 20\nDATA ascii\n";
+  for (int i = 0; i < 20; ++i) text += fmt::format("{} 0.5 -1 {}\n", i, i % 16);
+  return text;
+}
+
+std::string PlyFile() {
+  std::string text =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 20\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n";
+  return text + std::string(240, '\x3f');
+}
+
+std::string_view TextOf(std::span<const uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// A reader that knows bytes, not names.
+template <class Parse>
+Read ReadsBytes(const Parse& parse) {
+  return [parse](const fs::path& path) {
+    const std::string bytes = ReadInput(path);
+    try {
+      parse(std::span(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()));
+    } catch (const BadInput& error) {
+      throw BadInput(path.string() + ": " + error.what());
+    }
+    return std::string();
+  };
 }
 
 std::string LcmLog() {
@@ -128,6 +216,17 @@ std::vector<Decoder> Decoders() {
   return {
       {"Carmen", CarmenLog, ReadsToTheEnd<CarmenReader>()},
       {"Rosbag", Bag, ReadsToTheEnd<RosbagReader>()},
+      {"PointCloudBag", PointCloudBag, ReadPointCloudBag},
+      {"VelodyneCapture", [] { return VelodyneCapture(VelodynePackets(), 1'000'000); },
+       ReadsToTheEnd<VelodyneReader>()},
+      {"VelodynePayloads", [] { return Joined(VelodynePackets()); }, ReadsToTheEnd<VelodyneReader>()},
+      {"KittiPoints", KittiPoints, ReadsBytes([](auto bytes) { (void)DecodeKittiPoints(bytes); })},
+      {"KittiTimes", KittiTimes, ReadsBytes([](auto bytes) { (void)ParseKittiTimes(TextOf(bytes)); })},
+      {"KittiPoses", KittiPoses, ReadsBytes([](auto bytes) { (void)ParseKittiPoses(TextOf(bytes)); })},
+      {"KittiCalibration", [] { return std::string("P0: 1 0 0\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 0.3\n"); },
+       ReadsBytes([](auto bytes) { (void)ParseKittiCalibration(TextOf(bytes)); })},
+      {"Pcd", PcdFile, ReadsBytes([](auto bytes) { (void)ToSweepPoints(ParsePcd(bytes)); })},
+      {"Ply", PlyFile, ReadsBytes([](auto bytes) { (void)ToSweepPoints(ParsePly(bytes)); })},
       {"LcmLog", LcmLog, ReadLcmLog},
       {"Tum", TumFile, [](const fs::path& path) { return ReadTrajectory(path).error; }},
       {"Relations", RelationFileText, [](const fs::path& path) { return ReadRelations(path).error; }},
