@@ -9,12 +9,14 @@
 #                                               RELATIONS: file to judge it by, or - for its ground truth; arguments go to
 #                                               every service
 #   system NAME SERVICE [ARGUMENT...]           a set-up of a service; the first one is compared with the others
+#   bench NAME PROGRAM FILTER                   times from PROGRAM --benchmark_filter=FILTER over the size that they stand for,
+#                                               as NAME.csv and NAME.svg
 #
 # Groups are summed up one by one. Arguments are those of the service's command line, at the root of the project.
 # shellcheck shell=bash
 # shellcheck disable=SC2034,SC2154  # with common.sh
 
-study_title='' study_note='' study_failure_m=0.5 study_sources=() study_systems=()
+study_title='' study_note='' study_failure_m=0.5 study_sources=() study_systems=() study_benches=()
 
 # Where recorded logs are.
 data=${LCMSLAM_DATA:-$root/../shared/data}
@@ -28,6 +30,7 @@ read_study() {
       note) study_note=$words ;;
       failure) study_failure_m=$words ;;
       simulate | recorded) study_sources+=("$kind $words") ;;
+      bench) study_benches+=("$words") ;;
       system) study_systems+=("$words") ;;
       *) die "$1: $kind: no such kind of line" "$exit_usage" ;;
     esac
@@ -55,6 +58,8 @@ list_episodes() {
     fi
   done
 }
+
+study_bench_programs() { printf '%s\n' "${study_benches[@]}" | awk 'NF { print $2 }' | sort -u; }
 
 study_services() { printf '%s\n' "${study_systems[@]}" | awk '{ print $2 }' | sort -u; }
 
