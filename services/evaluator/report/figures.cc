@@ -147,7 +147,7 @@ Figure BoxPlot(const std::string& name, const std::string& caption, const std::s
                            SystemColour(i)));
     }
   }
-  if (NeedsLogAxis(values_m)) PrintLogAxis(text, "y", PositiveRange(values_m));
+  NeedsLogAxis(values_m) ? PrintLogAxis(text, "y", PositiveRange(values_m)) : Print(text, "set yrange [0:]\n");
   Print(text, "set style boxplot nooutliers fraction 0.95\nset boxwidth 0.4\nset style fill solid 0.25 border\n");
   Print(text, "set xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel {}\n", tics, SlantIfLong(systems),
         static_cast<double>(systems.size()) + 0.8, GnuplotString(axis));
