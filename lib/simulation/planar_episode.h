@@ -21,7 +21,7 @@ struct PlanarEpisodeOptions {
   int64_t start_utime = 1'000'000;  // us; the robot starts to move, the first beam is measured
   PlanarLidarOptions lidar = {};
   PlanarDriveOptions drive = {};
-  PlanarOdometryOptions odometry = {};
+  OdometryOptions odometry = {};
   PlanarPeopleOptions people = {};
 
   std::string Validate() const;

@@ -16,6 +16,7 @@ std::string SpatialEpisodeOptions::Validate() const {
   if (const std::string error = lidar.Validate(); !error.empty()) return "lidar." + error;
   if (const std::string error = carrier.Validate(); !error.empty()) return "carrier." + error;
   if (const std::string error = imu.Validate(); !error.empty()) return "imu." + error;
+  if (const std::string error = odometry.Validate(); !error.empty()) return "odometry." + error;
   return "";
 }
 
@@ -30,7 +31,8 @@ SpatialEpisode::SpatialEpisode(SpatialWorld world, SpatialMotion motion, const S
     : world_(std::move(world)),
       motion_(std::move(motion)),
       options_(options),
-      imu_(SimulateImu(motion_, options.start_utime, options.imu, options.seed)) {}
+      imu_(SimulateImu(motion_, options.start_utime, options.imu, options.seed)),
+      odometry_(SimulateSpatialOdometry(motion_, options.start_utime, options.odometry, options.seed)) {}
 
 int SpatialEpisode::num_frames() const {
   return static_cast<int>(std::floor(options_.duration_s / options_.lidar.model.turn_s + 1e-9));

@@ -12,6 +12,7 @@
 #include "simulation/multi_line_lidar.h"
 #include "simulation/spatial_carrier.h"
 #include "simulation/spatial_motion.h"
+#include "simulation/spatial_odometry.h"
 #include "simulation/spatial_world.h"
 
 namespace lcmslam {
@@ -23,6 +24,7 @@ struct SpatialEpisodeOptions {
   MultiLineLidarOptions lidar = {};
   SpatialCarrierOptions carrier = {};
   ImuOptions imu = {};
+  OdometryOptions odometry = {};
 
   std::string Validate() const;
 };
@@ -50,6 +52,7 @@ class SpatialEpisode {
   const SpatialWorld& world() const { return world_; }
   const SpatialMotion& motion() const { return motion_; }
   const std::vector<ImuSample>& imu() const { return imu_; }
+  const Trajectory& odometry() const { return odometry_; }  // T_odom_body, see SimulateSpatialOdometry
   const SpatialEpisodeOptions& options() const { return options_; }
 
  private:
@@ -59,6 +62,7 @@ class SpatialEpisode {
   SpatialMotion motion_;  // its time 0 is start_utime
   SpatialEpisodeOptions options_;
   std::vector<ImuSample> imu_;
+  Trajectory odometry_;
 };
 
 }  // namespace lcmslam

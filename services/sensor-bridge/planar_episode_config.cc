@@ -6,6 +6,7 @@
 
 #include "common/config.h"
 #include "sensor-bridge/episode.pb.h"
+#include "sensor-bridge/odometry_config.h"
 #include "sensor-bridge/planar_episode_world.h"
 
 namespace lcmslam {
@@ -63,14 +64,6 @@ void BindDrive(ConfigBinder bind, PlanarDriveOptions& drive) {
   bind("kind", drive.drive)("max_speed_mps", drive.max_speed_mps)("max_yaw_rate_radps", drive.max_yaw_rate_radps);
   bind("max_acceleration_mps2", drive.max_acceleration_mps2);
   bind("max_yaw_acceleration_radps2", drive.max_yaw_acceleration_radps2)("clearance_m", drive.clearance_m);
-}
-
-void BindOdometry(ConfigBinder bind, PlanarOdometryOptions& odometry) {
-  bind("rate_hz", odometry.rate_hz)("translation_scale_sigma", odometry.translation_scale_sigma);
-  bind("rotation_scale_sigma", odometry.rotation_scale_sigma);
-  bind("translation_walk_m_per_sqrt_m", odometry.translation_walk_m_per_sqrt_m);
-  bind("rotation_walk_rad_per_sqrt_m", odometry.rotation_walk_rad_per_sqrt_m);
-  bind("rotation_walk_rad_per_sqrt_rad", odometry.rotation_walk_rad_per_sqrt_rad);
 }
 
 void BindPeople(ConfigBinder bind, PlanarPeopleOptions& people) {

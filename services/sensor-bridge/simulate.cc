@@ -41,10 +41,14 @@ void PublishEpisode(const PlanarEpisode& episode, SensorPublisher& publisher, Bo
 void PublishEpisode(const SpatialEpisode& episode, SensorPublisher& publisher, BoundSummary& bound) {
   publisher.SetMounting(kMultiLineChannel, episode.options().lidar.T_body_lidar);
   auto imu = episode.imu().begin();
+  auto odometry = episode.odometry().begin();
   for (int i = 0; i < episode.num_frames() && !StopRequested(); ++i) {
     const SpatialFrame frame = episode.Frame(i);
     for (; imu != episode.imu().end() && imu->utime <= frame.sweep.utime; ++imu) {
       publisher.PublishImu(kImuChannel, *imu);
+    }
+    for (; odometry != episode.odometry().end() && odometry->utime <= frame.sweep.utime; ++odometry) {
+      publisher.PublishPose(kOdometryChannel, *odometry);
     }
     publisher.PublishPose(kGroundTruthChannel, {frame.sweep.utime, frame.T_world_body});
     publisher.PublishSweep(kMultiLineChannel, frame.sweep);

@@ -37,7 +37,7 @@ class BoundSummary {
 // Publishes the episode: its scans on LIDAR_2D with the extrinsics, GROUND_TRUTH at the scans' times and, if there is
 // any, ODOMETRY. Stops early on SIGTERM or SIGINT.
 void PublishEpisode(const PlanarEpisode& episode, SensorPublisher& publisher, BoundSummary& bound);
-// The same with sweeps on LIDAR_3D, and, if there are any, IMU samples.
+// The same with sweeps on LIDAR_3D and, if there are any, samples on IMU.
 void PublishEpisode(const SpatialEpisode& episode, SensorPublisher& publisher, BoundSummary& bound);
 
 }  // namespace lcmslam

@@ -9,6 +9,7 @@
 
 #include "common/config.h"
 #include "sensor-bridge/episode.pb.h"
+#include "sensor-bridge/odometry_config.h"
 #include "simulation/spatial_worlds.h"
 
 namespace lcmslam {
@@ -77,10 +78,10 @@ SpatialWorld MakeSpatialWorld(ConfigBinder bind) {
   return *std::move(world);
 }
 
-// Which section of the episode file a field of SpatialEpisodeOptions stands in.
+// SpatialEpisodeOptions names its parts as the file's section `spatial` does.
 std::string InFile(const std::string& reason) {
-  const bool in_section = reason.starts_with("lidar.") || reason.starts_with("carrier.") || reason.starts_with("imu.");
-  return in_section ? "spatial." + reason : reason;
+  const bool is_part = reason.find('.') < reason.find(':');
+  return is_part ? "spatial." + reason : reason;
 }
 
 }  // namespace
@@ -93,6 +94,7 @@ SpatialEpisode MakeSpatialEpisode(config::Episode& config) {
   BindLidar(spatial.Sub("lidar"), options.lidar);
   BindCarrier(spatial.Sub("carrier"), options.carrier);
   BindImu(spatial.Sub("imu"), options.imu);
+  BindOdometry(spatial.Sub("odometry"), options.odometry);
   RequireValid(InFile(options.Validate()));
 
   std::optional<SpatialEpisode> episode = SpatialEpisode::Create(MakeSpatialWorld(spatial.Sub("world")), options);

@@ -58,7 +58,7 @@ TEST(EpisodeConfig, UnsetMeansTheLibrarysDefault) {
   EXPECT_EQ(from_nothing.duration_s(), PlanarEpisodeOptions{}.duration_s);
   EXPECT_EQ(from_nothing.planar().lidar().model().num_beams(), PlanarLidarOptions{}.model.num_beams);
   EXPECT_EQ(from_nothing.planar().drive().clearance_m(), PlanarDriveOptions{}.clearance_m);
-  EXPECT_EQ(from_nothing.planar().odometry().rate_hz(), PlanarOdometryOptions{}.rate_hz);
+  EXPECT_EQ(from_nothing.planar().odometry().rate_hz(), OdometryOptions{}.rate_hz);
   EXPECT_EQ(from_nothing.planar().people().radius_m(), PlanarPeopleOptions{}.radius_m);
 }
 
@@ -187,6 +187,7 @@ TEST(EpisodeConfig, RefusalsNameTheField) {
       {"spatial { carrier { max_tilt_rad: 2 } }", "spatial.carrier.max_tilt_rad: "},
       {"spatial { carrier { clearance_m: 5 } }", "spatial.carrier.clearance_m: "},
       {"spatial { imu { rate_hz: -1 } }", "spatial.imu.rate_hz: "},
+      {"spatial { odometry { rate_hz: -1 } }", "spatial.odometry.rate_hz: "},
   };
   for (const auto& [text, field] : cases) {
     const Refusal refusal = RefusalOf(text);

@@ -23,6 +23,7 @@ spatial {
   world { name: "bare_room" }
   lidar { mounting { z_m: 0.1 } }
   imu { rate_hz: 100 }
+  odometry { rate_hz: 20 }
 }
 )";
 
@@ -30,6 +31,7 @@ SpatialEpisode SameEpisode() {
   SpatialEpisodeOptions options{.seed = 5, .duration_s = 1.5};
   options.lidar.T_body_lidar.translation.z() = 0.1;
   options.imu.rate_hz = 100.0;
+  options.odometry.rate_hz = 20.0;
   return *SpatialEpisode::Create(BareRoomWorld(), options);
 }
 
@@ -70,7 +72,7 @@ TEST(SimulateSpatial, ChunksComeWhenTheirLastPointIsMeasured) {
   }
 }
 
-TEST(SimulateSpatial, PublishesTruthImuAndMounting) {
+TEST(SimulateSpatial, PublishesTruthImuOdometryAndMounting) {
   const SpatialEpisode episode = SameEpisode();
   const Simulated simulated(kEpisode);
   const std::vector<Event> truth = simulated.On("GROUND_TRUTH");
@@ -89,6 +91,13 @@ TEST(SimulateSpatial, PublishesTruthImuAndMounting) {
     EXPECT_EQ(sample.utime, episode.imu()[i].utime);
     EXPECT_EQ(sample.angular_velocity_radps, episode.imu()[i].angular_velocity_radps);
     EXPECT_EQ(sample.specific_force_mps2, episode.imu()[i].specific_force_mps2);
+  }
+  const std::vector<Event> odometry = simulated.On("ODOMETRY");
+  ASSERT_GT(odometry.size(), 28U);
+  for (size_t i = 0; i < odometry.size(); ++i) {
+    const StampedPose pose = *DecodePose(odometry[i].data);
+    EXPECT_EQ(pose.utime, episode.odometry()[i].utime);
+    EXPECT_TRUE((pose.pose.translation - episode.odometry()[i].pose.translation).isZero(1e-12));
   }
   const std::vector<Event> mounting = simulated.On("LIDAR_3D_EXTRINSICS");
   ASSERT_GE(mounting.size(), 1U);

@@ -9,12 +9,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr PlanarOdometryOptions kPerfect{.rate_hz = 50.0,
-                                         .translation_scale_sigma = 0.0,
-                                         .rotation_scale_sigma = 0.0,
-                                         .translation_walk_m_per_sqrt_m = 0.0,
-                                         .rotation_walk_rad_per_sqrt_m = 0.0,
-                                         .rotation_walk_rad_per_sqrt_rad = 0.0};
+constexpr OdometryOptions kPerfect{.rate_hz = 50.0,
+                                   .translation_scale_sigma = 0.0,
+                                   .rotation_scale_sigma = 0.0,
+                                   .translation_walk_m_per_sqrt_m = 0.0,
+                                   .rotation_walk_rad_per_sqrt_m = 0.0,
+                                   .rotation_walk_rad_per_sqrt_rad = 0.0};
 
 // 16 m and 4 rad in 20 s.
 PlanarMotion Arc() { return {1'000'000, 20'000'000, Pose2(3.0, 1.0, 2.0), {Vector3d(0.8, 0.0, 0.2)}}; }
@@ -42,7 +42,7 @@ struct Spread {
 };
 
 // Of what odometry says of the whole arc, as way forward (straightened), sideways, angle.
-Spread SpreadOverSeeds(const PlanarOdometryOptions& options) {
+Spread SpreadOverSeeds(const OdometryOptions& options) {
   constexpr int kSeeds = 400;
   Vector3d sum = Vector3d::Zero();
   Vector3d sum_of_squares = Vector3d::Zero();
@@ -58,7 +58,7 @@ Spread SpreadOverSeeds(const PlanarOdometryOptions& options) {
 }
 
 TEST(PlanarOdometry, ScaleErrorsGrowWithTheWay) {
-  PlanarOdometryOptions options = kPerfect;
+  OdometryOptions options = kPerfect;
   options.translation_scale_sigma = 0.01;
   options.rotation_scale_sigma = 0.02;
   const Spread spread = SpreadOverSeeds(options);
@@ -68,7 +68,7 @@ TEST(PlanarOdometry, ScaleErrorsGrowWithTheWay) {
 }
 
 TEST(PlanarOdometry, WalksGrowWithTheSquareRootOfTheWay) {
-  PlanarOdometryOptions options = kPerfect;
+  OdometryOptions options = kPerfect;
   options.translation_walk_m_per_sqrt_m = 0.02;
   options.rotation_walk_rad_per_sqrt_m = 0.01;
   options.rotation_walk_rad_per_sqrt_rad = 0.03;
@@ -90,10 +90,9 @@ TEST(PlanarOdometry, DoesNotDriftAtRest) {
 TEST(PlanarOdometry, RateZeroIsNone) { EXPECT_TRUE(SimulateOdometry(Arc(), {}, 1).empty()); }
 
 TEST(PlanarOdometry, ValidateNamesTheField) {
-  EXPECT_EQ(PlanarOdometryOptions{}.Validate(), "");
-  EXPECT_EQ(PlanarOdometryOptions{.rate_hz = NAN}.Validate(), "rate_hz: must be in 0..1000");
-  EXPECT_EQ(PlanarOdometryOptions{.rotation_scale_sigma = -1.0}.Validate(),
-            "rotation_scale_sigma: must not be negative");
+  EXPECT_EQ(OdometryOptions{}.Validate(), "");
+  EXPECT_EQ(OdometryOptions{.rate_hz = NAN}.Validate(), "rate_hz: must be in 0..1000");
+  EXPECT_EQ(OdometryOptions{.rotation_scale_sigma = -1.0}.Validate(), "rotation_scale_sigma: must not be negative");
 }
 
 }  // namespace
