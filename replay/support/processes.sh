@@ -15,13 +15,13 @@ start() {
 
 is_running() { kill -0 "${pid_of[$1]}" 2>/dev/null; }
 
-# wait_until NAME CONDITION...: until the condition holds; the run ends when the process does so first or after 20 s.
+# wait_until NAME CONDITION...: until the condition holds; the run ends when the process does so first or after a minute.
 wait_until() {
-  local name=$1 deadline=$((SECONDS + 20))
+  local name=$1 deadline=$((SECONDS + 60))
   shift
   until "$@"; do
     is_running "$name" || { finish "$name" && die "$name ended at once"; }
-    ((SECONDS < deadline)) || die "$name: not ready after 20 s"
+    ((SECONDS < deadline)) || die "$name: not ready after a minute"
     sleep 0.02
   done
 }
@@ -50,6 +50,7 @@ stop_all() {
     timeout 5 tail --pid="${pid_of[$name]}" -f /dev/null || kill -KILL "${pid_of[$name]}" 2>/dev/null || true
     wait "${pid_of[$name]}" 2>/dev/null || true
   done
+  pid_of=()
 }
 trap stop_all EXIT
 trap 'exit 130' INT

@@ -52,6 +52,11 @@ final class Camera {
     return true;
   }
 
+  /** Whether the eye is on the side of a plane that its normal points to. */
+  boolean sees(double x, double y, double z, double nx, double ny, double nz) {
+    return (eyeX - x) * nx + (eyeY - y) * ny + (eyeZ - z) * nz > 0;
+  }
+
   double pixelsPerMeter(double depth) {
     return FOCAL * height / depth;
   }

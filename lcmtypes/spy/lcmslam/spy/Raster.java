@@ -66,9 +66,9 @@ final class Raster {
     }
   }
 
-  /** A disc across a unit normal. */
+  /** A disc across a unit normal, seen only from where the normal points: one looks through walls into a room. */
   void disc(double x, double y, double z, double nx, double ny, double nz, double radius, int color) {
-    if (!camera.project(x, y, z, at)) return;
+    if (!camera.sees(x, y, z, nx, ny, nz) || !camera.project(x, y, z, at)) return;
     double scale = camera.pixelsPerMeter(at[2]), reach = radius * scale;
     if (at[0] + reach < 0 || at[0] - reach >= width || at[1] + reach < 0 || at[1] - reach >= height || reach > width) return;
     if (reach < 1) {
