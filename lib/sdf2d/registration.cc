@@ -210,6 +210,7 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
     if (step.dot(H * step) < options.stop_sigmas * options.stop_sigmas) {
       result.status = AlignStatus::kConverged;
       best_offset = offset;
+      ++result.iterations;
       break;
     }
   }

@@ -69,7 +69,7 @@ void ScanField::AddLine(const SurfaceLine& line, const Pose2& T_map_body, double
       const double fit = line.variance[0] + t * (line.variance[1] + t * line.variance[2]);
       const double variance = std::max(fit, 0.0) + floor2 + spread * spread + end_spread * end_spread;
       Offer({column, row, static_cast<float>(distance), static_cast<float>(1.0 / variance),
-             static_cast<float>(std::hypot(distance, past_end)), sheet});
+             static_cast<float>(std::sqrt(distance * distance + past_end * past_end)), sheet});
     }
   }
 }

@@ -35,6 +35,8 @@ class SdfReader {
     Sample best;
     if (!Locate(p_map, &cell)) return best;
     for (int sheet = 0; sheet < SdfTile::kSheets; ++sheet) {
+      if (cell.tile != nullptr && std::isnan(cell.tile->sheets[sheet].distance_m[SdfTile::IndexOf(cell.x, cell.y)]))
+        continue;  // half of all look-ups: most surfaces have one side
       const Sample sample = Interpolate(cell, sheet);
       const bool faces = sample.gradient.dot(beam) < 0.0;  // not where unknown
       if (faces && !(std::abs(sample.distance_m) >= std::abs(best.distance_m))) best = sample;
