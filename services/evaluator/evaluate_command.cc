@@ -8,6 +8,7 @@
 #include "common/config.h"
 #include "evaluator/evaluator.pb.h"
 #include "evaluator/evaluator_service.h"
+#include "evaluator/evo_archive.h"
 #include "evaluator/result.h"
 #include "evaluator/table.h"
 
@@ -131,7 +132,9 @@ ExitCode EvaluateRecording(const EvaluateArguments& arguments, const EvaluatorOp
   }
   if (!sources.reference.trajectory.empty()) {
     AddSource(sources.reference, *message.mutable_reference());
-    AddEvaluation(EvaluateSources(sources, options.evaluation), options.evaluation, message);
+    const Evaluation evaluation = EvaluateSources(sources, options.evaluation);
+    AddEvaluation(evaluation, options.evaluation, message);
+    if (!arguments.evo_zip.empty()) WriteEvoArchive(evaluation, message, arguments.evo_zip);
   }
   if (result::Timing timing; sources.timing.Report(sources.estimate.channel, timing)) {
     *message.mutable_timing() = std::move(timing);
@@ -149,6 +152,7 @@ std::filesystem::path JsonPath(const std::filesystem::path& json, const std::str
 
 ExitCode EvaluateOnBus(const EvaluateArguments& arguments, EvaluatorOptions options, config::Evaluator& config) {
   RequireUsage(arguments.relations.empty(), "--relations: not on the bus, only with files or --log-in alone");
+  RequireUsage(arguments.evo_zip.empty(), "--evo-zip: not on the bus, only with files or --log-in alone");
   RequireUsage(!options.evaluation.calibrate, "--align calibrate: not on the bus, only with files or --log-in alone");
   if (!arguments.estimate.empty()) options.estimate_channel = arguments.estimate;
   if (!arguments.reference.empty()) options.reference_channel = arguments.reference;
@@ -190,6 +194,7 @@ void AddEvaluateOptions(CLI::App& app, EvaluateArguments& arguments, config::Eva
   app.add_option("--reference", arguments.reference, "what it is compared with: file, or channel");
   app.add_option("--relations", arguments.relations, "Kuemmerle relations: lines t1 t2 x y z roll pitch yaw");
   app.add_option("--json", arguments.json, "write the result to this file");
+  app.add_option("--evo-zip", arguments.evo_zip, "write the absolute error as evo's evo_ape would, for evo_res");
   app.add_option("--kitti-times", arguments.read.kitti_times, "stamps of KITTI poses, one a line; default 0.1 s apart");
   app.add_option_function<std::string>(
          "--align", [&flags](const std::string& name) { flags.set_align(AlignOf(name)); },

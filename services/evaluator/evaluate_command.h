@@ -28,6 +28,7 @@ struct EvaluateArguments {
   std::string estimate, reference;  // file, or channel of the log or bus
   std::filesystem::path relations;
   std::filesystem::path json;
+  std::filesystem::path evo_zip;
   ReadOptions read;
 };
 // Flags that are configuration too (--align, --max-mean, ...) go into `config`, where they win over --config and --set

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/command_line.h"
+#include "evaluator/convert_command.h"
 #include "evaluator/evaluate_command.h"
 #include "evaluator/evaluator.pb.h"
 #include "evaluator/report/report_command.h"
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   std::function<ExitCode()> command = [&] { return RunEvaluate(arguments, flags); };
   AddServiceOptions(app, arguments.service);
   AddEvaluateOptions(app, arguments, flags);
+  AddConvertCommand(app, command);
   report::AddReportCommand(app, arguments.command, command);
   return RunCommandLine(app, argc, argv, [&] { return command(); });
 }
