@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "baselines/stage_clock.h"
 #include "lidar/deskew.h"
 
 namespace lcmslam::occupancy2d {
@@ -17,24 +17,6 @@ std::vector<LogOddsGrid> EmptyLevels(const Options& options) {
   for (int i = 0; i < options.levels; ++i, grid.cell_m *= 2.0) levels.emplace_back(grid);
   return levels;
 }
-
-// Times the stages of one scan; all zero without a clock.
-class StageClock {
- public:
-  explicit StageClock(const std::function<double()>& now_ms) : now_ms_(now_ms), last_ms_(now_ms ? now_ms() : 0.0) {}
-
-  void Finish(Stage stage) {
-    if (!now_ms_) return;
-    const double now = now_ms_();
-    stage_ms_[static_cast<size_t>(stage)] = now - std::exchange(last_ms_, now);
-  }
-  const std::array<double, kNumStages>& stage_ms() const { return stage_ms_; }
-
- private:
-  const std::function<double()>& now_ms_;
-  double last_ms_;
-  std::array<double, kNumStages> stage_ms_{};
-};
 
 }  // namespace
 
@@ -55,7 +37,7 @@ Pipeline::Pipeline(const Options& options)
     : options_(options), levels_(EmptyLevels(options)), T_map_body_(options.T_map_body_initial) {}
 
 Result Pipeline::Process(const PlanarScan& scan) {
-  StageClock clock(now_ms_);
+  StageClock<Stage, kNumStages> clock(now_ms_);
   const std::vector<Eigen::Vector2d> p_body = EndPoints(scan);
   const Pose2 T_map_body_guess = T_map_body_ * odometry_.MotionUntil(scan.utime);
   clock.Finish(Stage::kPrepare);

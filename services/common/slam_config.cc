@@ -7,14 +7,11 @@
 #include "common/spatial_slam_service.h"
 
 namespace lcmslam {
-namespace {
 
 void BindSharedChannels(ConfigBinder channels, SlamServiceOptions& options) {
   channels("lidar", options.lidar_channel)("odometry", options.odometry_channel)("command", options.command_channel);
   channels("pose", options.pose_channel)("diagnostics", options.diagnostics_channel);
 }
-
-}  // namespace
 
 void BindChannels(ConfigBinder channels, PlanarSlamOptions& options) {
   BindSharedChannels(channels, options);

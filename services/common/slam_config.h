@@ -7,10 +7,13 @@
 namespace lcmslam {
 
 struct PlanarSlamOptions;
+struct SlamServiceOptions;
 struct SpatialSlamOptions;
 
 // The parts of a configuration that the shells of SLAM services need.
 
+// lidar, odometry, command, pose, diagnostics.
+void BindSharedChannels(ConfigBinder channels, SlamServiceOptions& options);
 // lidar, odometry, command, pose, diagnostics, grid, grid_period_s, max_grid_cells.
 void BindChannels(ConfigBinder channels, PlanarSlamOptions& options);
 // lidar, odometry, imu, command, pose, diagnostics.

@@ -3,7 +3,7 @@
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
 
-services=(sdf2d-slam occupancy2d-slam ground-truth-logger)
+services=(sdf2d-slam occupancy2d-slam cloud3d-slam ground-truth-logger)
 
 main() {
   make_logs

@@ -3,9 +3,9 @@
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
 
-services=(sdf2d-slam octo3d-slam occupancy2d-slam ground-truth-logger evaluator)
+services=(sdf2d-slam octo3d-slam occupancy2d-slam cloud3d-slam ground-truth-logger evaluator)
 declare -A options=([sdf2d-slam]="--set channels.odometry=ODOMETRY" [octo3d-slam]="--set channels.odometry=ODOMETRY --set channels.imu=IMU"
-  [occupancy2d-slam]="--set channels.odometry=ODOMETRY")
+  [occupancy2d-slam]="--set channels.odometry=ODOMETRY" [cloud3d-slam]="--set channels.odometry=ODOMETRY")
 
 main() {
   "$bin/mutated_log" mutated.lcm 10000 "${LCMSLAM_SEED:-1}"

@@ -1,0 +1,45 @@
+#include "cloud3d-slam/configuration.h"
+
+#include "cloud3d-slam/cloud3d_slam.h"
+#include "cloud3d-slam/cloud3d_slam.pb.h"
+#include "common/slam_config.h"
+
+namespace lcmslam {
+namespace {
+
+void BindFilter(ConfigBinder bind, cloud3d::FilterOptions& filter) {
+  bind("min_range_m", filter.min_range_m)("max_range_m", filter.max_range_m)("keep_ratio", filter.keep_ratio);
+  bind("voxel_m", filter.voxel_m)("normal_neighbours", filter.normal_neighbours);
+}
+
+void BindIcp(ConfigBinder bind, cloud3d::IcpOptions& icp) {
+  bind("neighbours", icp.neighbours)("epsilon", icp.epsilon)("max_distance_m", icp.max_distance_m);
+  bind("trim_ratio", icp.trim_ratio)("max_normal_angle_rad", icp.max_normal_angle_rad);
+  bind("max_iterations", icp.max_iterations)("smoothed_steps", icp.smoothed_steps);
+  bind("min_step_m", icp.min_step_m)("min_step_rad", icp.min_step_rad)("min_overlap", icp.min_overlap);
+}
+
+void BindMap(ConfigBinder bind, cloud3d::Options& slam) {
+  bind("spacing_m", slam.map.spacing_m);
+  bind("update_distance_m", slam.update_distance_m)("update_angle_rad", slam.update_angle_rad);
+}
+
+}  // namespace
+
+void BindOptions(config::Cloud3dSlam& config, Cloud3dSlamOptions& options) {
+  options.service.pose_channel = "CLOUD3D_POSE";
+  options.service.diagnostics_channel = "CLOUD3D_DIAGNOSTICS";
+  options.service.mounting_configured = config.has_mounting();
+  cloud3d::Options& slam = options.slam;
+  ConfigBinder bind(config);
+  BindSharedChannels(bind.Sub("channels"), options.service);
+  if (config.has_mounting()) BindPose(bind.Sub("mounting"), options.service.T_body_lidar);
+  BindPose(bind.Sub("initial_pose"), options.service.T_map_body_initial);
+  bind("localize_only", options.service.localize_only)("reading_ratio", slam.reading_ratio);
+  bind("max_gap_s", slam.max_gap_s)("seed", slam.seed);
+  BindFilter(bind.Sub("filter"), slam.filter);
+  BindIcp(bind.Sub("icp"), slam.icp);
+  BindMap(bind.Sub("map"), slam);
+}
+
+}  // namespace lcmslam
