@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -17,6 +18,8 @@ namespace {
 constexpr double kUsToS = 1e-6;
 constexpr double kMapPoseM = 1e-4, kMapPoseRad = 1e-4;  // the first pose defines the map frame
 constexpr double kLongestWalkS = 10.0;                  // beyond, more silence makes nothing worse
+constexpr double kStartMotionM = 0.02;                  // of points during the first sweep
+constexpr int kStartRounds = 4;
 
 // Pose known to within pose_m and pose_rad; of the velocity only the size is known.
 StateBelief AtRest(const Pose3& T_map_body, double pose_m, double pose_rad, const TrustOptions& trust) {
@@ -31,6 +34,26 @@ StateBelief AtRest(const Pose3& T_map_body, double pose_m, double pose_rad, cons
 
 // How long the sweep itself took; never zero.
 double SweepDuration(const Sweep& sweep) { return std::max(1e-3, -kUsToS * FirstPointTime(sweep)); }
+
+// What counts when registrations of one sweep are compared: patches that fit.
+double Fit(const RegistrationResult& registration) { return registration.inlier_ratio * registration.matched; }
+
+// The velocity at which a first sweep is to be deskewed, from that of the second one's registration to it. Where the
+// first is off by v (1 - f) at the fraction f of its turn, the steady motion v' f of the second that fits best has
+// v' = 3/2 v: so two thirds of the difference are due.
+MotionState Corrected(const MotionState& assumed, const MotionSegment& found) {
+  const Vector12 change = Difference(found.to(), found.from());
+  MotionState state = assumed;
+  state.velocity += 2.0 / 3.0 * (change.head<3>() / found.duration_s() - assumed.velocity);
+  state.angular_velocity += 2.0 / 3.0 * (change.segment<3>(3) / found.duration_s() - assumed.angular_velocity);
+  return state;
+}
+
+// How far points a few metres away move within duration_s.
+double MotionOfPoints(const MotionState& state, double duration_s) {
+  constexpr double kLeverM = 3.0;
+  return duration_s * (state.velocity.norm() + kLeverM * state.angular_velocity.norm());
+}
 
 // Nothing moves on for ever unseen.
 void Slow(MotionState& state) {
@@ -54,7 +77,9 @@ Result Pipeline::Process(const Sweep& dense_sweep, const MotionHint& hint) {
 
   const TimedPatches timed{patches, FirstPointTime(sweep), BridgeTimeTo(sweep)};
   bool searched = false;
-  const RegistrationResult registration = RegisterFromAnywhere(timed, ToRelativeMotion(hint), searched);
+  bool began_anew = false;
+  RegistrationResult registration = RegisterFromAnywhere(timed, ToRelativeMotion(hint), searched);
+  if (first_) registration = StartInMotion(timed, ToRelativeMotion(hint), registration, began_anew);
   Charge(Stage::kRegister);
 
   const bool good = IsGood(registration);
@@ -65,6 +90,7 @@ Result Pipeline::Process(const Sweep& dense_sweep, const MotionHint& hint) {
   Result result = MakeResult(good ? SweepStatus::kTracking : doubt, registration);
   result.patches = static_cast<int>(patches.size());
   result.searched = good && searched;
+  result.began_anew = began_anew;
   result.inserted = good && !options_.localise_only && Insert(sweep, registration.motion);
   Charge(Stage::kInsert);
   result.stage_ms = stage_ms_;
@@ -78,6 +104,7 @@ Result Pipeline::Start(const Sweep& sweep, const std::vector<Patch>& patches) {
   Result result = MakeResult(patches.empty() ? SweepStatus::kNoPoints : SweepStatus::kStarted, {});
   result.patches = static_cast<int>(patches.size());
   result.inserted = Insert(sweep, MotionSegment(belief_.mean, belief_.mean, SweepDuration(sweep)));
+  if (result.inserted) first_ = sweep;
   Charge(Stage::kInsert);
   result.stage_ms = stage_ms_;
   return result;
@@ -111,11 +138,43 @@ RegistrationResult Pipeline::RegisterFromAnywhere(const TimedPatches& patches, c
     to.T_map_body = SearchCoarsely(map_, patches, motion, options_.search).T_map_body;
     const MotionSegment found(belief_.mean, to, patches.duration_s);
     const RegistrationResult other = Register(map_, patches, belief_, hint, found, options_.registration);
-    if (other.inlier_ratio * other.matched <= best.inlier_ratio * best.matched) continue;
+    if (Fit(other) <= Fit(best)) continue;
     best = other;
     searched = true;
   }
   return best;
+}
+
+// The first sweep went into the map as if at rest. When the second says that the lidar was moving, the map begins anew
+// with that motion, unless this fits worse.
+RegistrationResult Pipeline::StartInMotion(const TimedPatches& patches, const RelativeMotion& hint,
+                                           const RegistrationResult& from_rest, bool& began_anew) {
+  const Sweep first = *std::exchange(first_, std::nullopt);
+  const double first_s = SweepDuration(first);
+  if (options_.localise_only || patches.duration_s >= options_.trust.max_gap_s ||
+      MotionOfPoints(Corrected(belief_.mean, from_rest.motion), first_s) < kStartMotionM) {
+    return from_rest;
+  }
+  const StateBelief at_rest = belief_;
+  const auto begin = [&](const MotionState& end) {
+    belief_.mean = end;
+    map_.Clear();
+    Insert(first, MotionSegment(Extrapolate(end, -first_s), end, first_s));
+    AwaitInsertion();
+  };
+  RegistrationResult registration = from_rest;
+  for (int round = 0; round < kStartRounds; ++round) {
+    begin(Corrected(belief_.mean, registration.motion));
+    bool searched = false;
+    registration = RegisterFromAnywhere(patches, hint, searched);
+  }
+  printf("rest: fit %.0f res %.4f norm %.3f matched %d | anew fit %.0f res %.4f norm %.3f matched %d\n", Fit(from_rest),
+         from_rest.residual_m, from_rest.normalised_residual, from_rest.matched, Fit(registration),
+         registration.residual_m, registration.normalised_residual, registration.matched);
+  began_anew = IsGood(registration) && registration.normalised_residual < from_rest.normalised_residual;
+  if (began_anew) return registration;
+  begin(at_rest.mean);
+  return from_rest;
 }
 
 bool Pipeline::IsGood(const RegistrationResult& registration) const {
@@ -210,6 +269,7 @@ void Pipeline::Reset() {
 void Pipeline::SetPose(const Pose3& T_map_body) {
   belief_ = AtRest(T_map_body, options_.trust.set_pose_m, options_.trust.set_pose_rad, options_.trust);
   utime_.reset();
+  first_.reset();
 }
 
 void Pipeline::SetMap(SurfelMap map) {

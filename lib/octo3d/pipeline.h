@@ -51,6 +51,7 @@ struct Result {
   double residual_m = 0.0;
   bool searched = false;  // the prediction had led nowhere: found by the wider search
   bool inserted = false;
+  bool began_anew = false;  // the map of the sweep before was replaced: that one had been in motion
   std::array<double, kStageNames.size()> stage_ms{};  // zeros without a stopwatch
 };
 
@@ -82,6 +83,8 @@ class Pipeline {
   Result Start(const Sweep& sweep, const std::vector<Patch>& patches);
   double BridgeTimeTo(const Sweep& sweep);
   RegistrationResult RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint, bool& searched);
+  RegistrationResult StartInMotion(const TimedPatches& patches, const RelativeMotion& hint,
+                                   const RegistrationResult& from_rest, bool& began_anew);
   bool IsGood(const RegistrationResult& registration) const;
   bool Insert(const Sweep& sweep, const MotionSegment& motion);
   void AwaitInsertion() const;
@@ -93,6 +96,7 @@ class Pipeline {
   Options options_;
   SurfelMap map_;
   std::optional<int64_t> utime_;  // of the last sweep
+  std::optional<Sweep> first_;    // made the map; until the next one tells how it had moved
   StateBelief belief_;            // at utime_
   std::function<double()> now_ms_;
   double last_ms_ = 0.0;

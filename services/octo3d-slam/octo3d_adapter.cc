@@ -63,6 +63,7 @@ class Octo3dAdapter : public SpatialSlam {
 
   SpatialUpdate Process(const Sweep& sweep, const LidarMotion& motion, slam_diagnostics_t& diagnostics) override {
     const octo3d::Result result = pipeline_.Process(sweep, {motion.rotation, motion.odometry});
+    if (result.began_anew) publisher_.Restart();
     Describe(result, pipeline_.map().options().range_noise_m, diagnostics);
     return {.has_pose = result.status != SweepStatus::kStale,
             .utime = result.utime,

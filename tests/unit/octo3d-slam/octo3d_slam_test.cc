@@ -168,7 +168,7 @@ TEST_F(Octo3dSlamTest, StartsInMotion) {
   options.carrier.start_in_motion = true;
   WriteEpisode(Hall10World(), options);
   Run("out");
-  EXPECT_LT(LargestError("out"), 0.08);
+  EXPECT_LT(LargestError("out"), 0.03);
 }
 
 TEST_F(Octo3dSlamTest, KnowsThatACorridorHidesMotion) {

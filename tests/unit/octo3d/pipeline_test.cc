@@ -40,6 +40,23 @@ TEST(Pipeline, TracksAMovingLidar) {
   EXPECT_LT(WorstError(Episode("hall10", 4.0), pipeline), 0.04);
 }
 
+// The first sweep alone does not tell that it is smeared over the way the lidar went meanwhile.
+TEST(Pipeline, BeginsAnewWhenTheFirstSweepWasInMotion) {
+  SpatialEpisodeOptions options;
+  options.seed = 4;
+  options.duration_s = 2.0;
+  options.carrier.start_in_motion = true;
+  const SpatialEpisode episode = *SpatialEpisode::Create(Hall10World(), options);
+  const BodyState start = episode.TrueStateAt(options.start_utime);
+  ASSERT_GT(start.velocity_mps.norm(), 0.3);
+  Pipeline pipeline{Options{}};
+  EXPECT_LT(WorstError(episode, pipeline), 0.02);
+  Pipeline other{Options{}};
+  EXPECT_FALSE(other.Process(episode.Frame(0).sweep).began_anew);
+  EXPECT_TRUE(other.Process(episode.Frame(1).sweep).began_anew);
+  EXPECT_FALSE(other.Process(episode.Frame(2).sweep).began_anew);
+}
+
 TEST(Pipeline, TracksSweepsWithoutTimes) {
   Pipeline pipeline{Options{}};
   EXPECT_LT(WorstError(Episode("hall10", 3.0, false), pipeline), 0.03);
