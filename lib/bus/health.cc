@@ -62,14 +62,21 @@ int64_t GapCounter::Missing(int64_t utime) {
     missing = std::max<int64_t>(0, std::llround(static_cast<double>(step_us) / period_us) - 1);
   }
   periods_us_[seen_++ % kWindow] = step_us;
-  total_ += missing;
   return missing;
+}
+
+void Health::CountMissing(std::string_view channel, int64_t messages) {
+  if (messages == 0) return;
+  missing_ += messages;
+  auto missing = missing_on_.find(channel);
+  if (missing == missing_on_.end()) missing = missing_on_.emplace(std::string(channel), 0).first;
+  missing->second += messages;
 }
 
 void Health::NoteInput(std::string_view channel, int64_t utime) {
   auto gap = gaps_.find(channel);
   if (gap == gaps_.end()) gap = gaps_.emplace(std::string(channel), GapCounter()).first;
-  missing_ += gap->second.Missing(utime);
+  CountMissing(channel, gap->second.Missing(utime));
   input_utime_ = utime;
 }
 
@@ -87,8 +94,8 @@ int8_t Health::State() const {
 
 std::string Health::MissingByChannel() const {
   std::string list;
-  for (const auto& [channel, gaps] : gaps_) {
-    if (gaps.total() > 0) list += fmt::format("{}{} missing on {}", list.empty() ? "" : ", ", gaps.total(), channel);
+  for (const auto& [channel, missing] : missing_on_) {
+    list += fmt::format("{}{} missing on {}", list.empty() ? "" : ", ", missing, channel);
   }
   return list;
 }
@@ -134,11 +141,7 @@ std::string Health::Summary() const {
   std::string line = fmt::format("{}: {} received, {} processed", name_, received_, processed_);
   if (dropped_ > 0) line += fmt::format(", {} dropped", dropped_);
   if (refused_ > 0) line += fmt::format(", {} refused", refused_);
-  const std::string by_channel = MissingByChannel();
-  if (!by_channel.empty())
-    line += ", " + by_channel;
-  else if (missing_ > 0)
-    line += fmt::format(", {} missing", missing_);
+  if (missing_ > 0) line += ", " + MissingByChannel();
   return text_.empty() ? line : line + "; " + text_;
 }
 

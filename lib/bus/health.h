@@ -17,14 +17,11 @@ class GapCounter {
  public:
   // The number of messages that should have come between the last stamp and this one.
   int64_t Missing(int64_t utime);
-  // Of all stamps so far.
-  int64_t total() const { return total_; }
 
  private:
   static constexpr size_t kWindow = 15;
   std::array<int64_t, kWindow> periods_us_{};
   size_t seen_ = 0;
-  int64_t total_ = 0;
   int64_t last_utime_ = 0;
   bool started_ = false;
 };
@@ -37,7 +34,7 @@ class Health {
   void CountReceived() { ++received_; }
   void CountProcessed() { ++processed_; }
   void CountRefused() { ++refused_; }
-  void CountMissing(int64_t messages) { missing_ += messages; }
+  void CountMissing(std::string_view channel, int64_t messages);
   void SetDropped(int64_t messages) { dropped_ = messages; }
   // A periodic input was accepted: looks for gaps, remembers the stamp.
   void NoteInput(std::string_view channel, int64_t utime);
@@ -75,6 +72,7 @@ class Health {
   double busy_ms_ = 0.0;
   std::vector<double> latencies_ms_;
   std::map<std::string, GapCounter, std::less<>> gaps_;
+  std::map<std::string, int64_t, std::less<>> missing_on_;  // by channel; only where some are
 };
 
 }  // namespace lcmslam

@@ -100,7 +100,7 @@ LiveReceiver::LiveReceiver(LiveBus& bus, size_t capacity_messages) : bus_(bus), 
         ++self->dropped_;
         return;
       }
-      self->queue_.push_back({{buffer->recv_utime, channel, {data, data + buffer->data_size}}, steady_clock::now()});
+      self->queue_.push_back({buffer->recv_utime, channel, {data, data + buffer->data_size}});
       self->arrived_.notify_one();
     }
   };
@@ -136,13 +136,13 @@ void LiveReceiver::Receive() {
   }
 }
 
-std::optional<LiveReceiver::Arrival> LiveReceiver::Pop(milliseconds timeout) {
+std::optional<Event> LiveReceiver::Pop(milliseconds timeout) {
   std::unique_lock lock(mutex_);
   arrived_.wait_for(lock, timeout, [&] { return !queue_.empty() || done_; });
   if (queue_.empty()) return {};
-  Arrival arrival = std::move(queue_.front());
+  Event event = std::move(queue_.front());
   queue_.pop_front();
-  return arrival;
+  return event;
 }
 
 void LiveReceiver::Drain() {

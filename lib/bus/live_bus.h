@@ -42,12 +42,9 @@ class LiveReceiver {
   LiveReceiver(LiveBus& bus, size_t capacity_messages);
   ~LiveReceiver();
 
-  struct Arrival {
-    Event event;  // utime: wall clock at arrival
-    std::chrono::steady_clock::time_point when;
-  };
-  // The oldest waiting message; none when there is none within the timeout, or, after Drain(), no more to come.
-  std::optional<Arrival> Pop(std::chrono::milliseconds timeout);
+  // The oldest waiting message, with the wall-clock time of its arrival; none when there is none within the timeout,
+  // or, after Drain(), no more to come.
+  std::optional<Event> Pop(std::chrono::milliseconds timeout);
 
   // Stops receiving once the bus has been quiet for a moment; what has arrived can still be popped.
   void Drain();
@@ -64,7 +61,7 @@ class LiveReceiver {
   size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
-  std::deque<Arrival> queue_;
+  std::deque<Event> queue_;
   int64_t dropped_ = 0;
   bool draining_ = false, done_ = false, failed_ = false;
   std::thread thread_;

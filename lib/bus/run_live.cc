@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -5,6 +6,7 @@
 #include "bus/live_bus.h"
 #include "bus/service.h"
 #include "bus/signals.h"
+#include "geometry/utime.h"
 
 namespace lcmslam {
 namespace {
@@ -40,8 +42,9 @@ ExitCode RunLive(ServiceContext& context, const ServiceFactory& make_service) {
   while (!receiver.drained()) {
     if (StopRequested()) receiver.Drain();
     if (const auto arrival = receiver.Pop(milliseconds(50))) {
-      const std::chrono::duration<double, std::milli> waited = steady_clock::now() - arrival->when;
-      context.Dispatch(arrival->event, waited.count());
+      // LCM stamps a message with the kernel's time of its arrival, before any queue of ours.
+      const double waited_ms = static_cast<double>(UtimeDifference(WallClockUtime(), arrival->utime)) / 1e3;
+      context.Dispatch(*arrival, std::max(0.0, waited_ms));
     }
     context.health().SetDropped(receiver.dropped());
     if (second.Elapsed()) context.Tick(WallClockUtime());

@@ -5,7 +5,12 @@
 faults=0 warnings=0
 
 ok() { printf 'ok       %s\n' "$1"; }
-note() { printf 'note     %s\n' "$1"; }
+
+# note FINDING [COMMAND]
+note() {
+  printf 'note     %s\n' "$1"
+  (($# < 2)) || printf '         mend: %s\n' "$2"
+}
 
 # warning FINDING COMMAND
 warning() {

@@ -31,7 +31,7 @@ Handled SweepInput::OfferExtrinsics(const Event& event) {
 }
 
 void SweepInput::Pass(const std::vector<Sweep>& sweeps) {
-  health_.CountMissing(assembler_.missing() - missing_counted_);
+  health_.CountMissing(channel_, assembler_.missing() - missing_counted_);
   missing_counted_ = assembler_.missing();
   for (const Sweep& sweep : sweeps) {
     health_.NoteStamp(sweep.utime);

@@ -42,7 +42,7 @@ class Plug {
     if (address.sll_ifindex == 0 || bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
       Fail(interface);
     for (const int option : {PACKET_VNET_HDR, PACKET_IGNORE_OUTGOING}) Set(SOL_PACKET, option, 1);
-    Set(SOL_SOCKET, SO_RCVBUFFORCE, 16 << 20);
+    Set(SOL_SOCKET, SO_RCVBUF, 16 << 20);  // what net.core.rmem_max leaves of it
   }
   ~Plug() { close(socket_); }
   Plug(const Plug&) = delete;
@@ -63,8 +63,7 @@ class Plug {
 
  private:
   void Set(int level, int option, int value) const {
-    // Only root of the whole host may have a larger buffer than the rest; without it the link itself may lose.
-    if (setsockopt(socket_, level, option, &value, sizeof value) != 0 && option != SO_RCVBUFFORCE) Fail("setsockopt");
+    if (setsockopt(socket_, level, option, &value, sizeof value) != 0) Fail("setsockopt");
   }
   int socket_;
 };

@@ -36,7 +36,13 @@ connect_hosts_lossily() {
   wait_until link says_ready link
 }
 
-make_hosts() { for host in lidar slam; do ip netns add "$host"; done; }
+make_hosts() {
+  local host
+  for host in lidar slam; do
+    ip netns add "$host"
+    ip netns exec "$host" sysctl -qw net.ipv4.ipfrag_high_thresh=67108864 net.ipv4.ipfrag_time=1
+  done
+}
 
 address_hosts() {
   local host number=1

@@ -36,8 +36,8 @@ TEST_F(Live, DeliversInOrder) {
   for (int i = 0; i < 100; ++i) {
     const auto arrival = receiver.Pop(milliseconds(2000));
     ASSERT_TRUE(arrival) << i;
-    EXPECT_EQ(arrival->event.channel, "COUNT");
-    EXPECT_EQ(arrival->event.data, std::vector<uint8_t>{static_cast<uint8_t>(i)});
+    EXPECT_EQ(arrival->channel, "COUNT");
+    EXPECT_EQ(arrival->data, std::vector<uint8_t>{static_cast<uint8_t>(i)});
   }
   EXPECT_EQ(receiver.dropped(), 0);
 }

@@ -33,7 +33,7 @@ std::vector<int64_t> Stamps(const std::vector<Sweep>& sweeps) {
 // Chunks of three sweeps of four chunks each: chunks[sweep][chunk].
 std::vector<std::vector<point_cloud_chunk_t>> ThreeSweeps(int32_t first_number = 0) {
   std::vector<std::vector<point_cloud_chunk_t>> chunks;
-  for (int i = 0; i < 3; ++i) chunks.push_back(ToChunks(CountingSweep(100'000 * (i + 1), 10'000), first_number + i));
+  for (int i = 0; i < 3; ++i) chunks.push_back(ToChunks(CountingSweep(100'000 * (i + 1), 3'600), first_number + i));
   return chunks;
 }
 
@@ -43,7 +43,7 @@ TEST(SweepChunks, SweepGoesThroughTheWireInSmallChunks) {
   std::vector<Sweep> sweeps;
   for (const point_cloud_chunk_t& chunk : ToChunks(sweep, 3)) {
     const std::vector<uint8_t> bytes = Encode(chunk);
-    EXPECT_LE(bytes.size(), 60'000U);
+    EXPECT_LE(bytes.size(), 22'000U);
     const auto decoded = DecodeChunk(bytes);
     ASSERT_TRUE(decoded);
     EXPECT_THAT(sweeps, IsEmpty());
@@ -94,7 +94,7 @@ TEST(SweepChunks, LostChunkIsCountedAndTheRestComes) {
   for (const int i : {0, 1, 2}) EXPECT_THAT(assembler.Add(chunks[1][static_cast<size_t>(i)]), IsEmpty());
   const auto sweeps = assembler.Add(chunks[1][3]);
   EXPECT_THAT(Stamps(sweeps), ElementsAre(100'000, 200'000));
-  EXPECT_THAT(sweeps[0].points, SizeIs(7'500));
+  EXPECT_THAT(sweeps[0].points, SizeIs(2'700));
   EXPECT_EQ(assembler.missing(), 1);
   EXPECT_THAT(assembler.Add(chunks[0][2]), IsEmpty());
   EXPECT_EQ(assembler.late(), 1);

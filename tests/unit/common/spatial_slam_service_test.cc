@@ -149,12 +149,12 @@ TEST_F(SpatialSlamServiceTest, ConfiguredMountingNeedsNoMessage) {
 }
 
 TEST_F(SpatialSlamServiceTest, LostChunksAreCountedAndTheRestIsUsed) {
-  WriteSweep(1000, 6000);
-  WriteSweep(101000, 6000, 1);
-  WriteSweep(201000, 6000);
+  WriteSweep(1000, 2400);
+  WriteSweep(101000, 2400, 1);
+  WriteSweep(201000, 2400);
   EXPECT_EQ(RunAndRead("FAKE_POSE").size(), 3U);
   EXPECT_EQ(missing_, 1);
-  EXPECT_THAT(calls_, testing::IsSupersetOf({"sweep of 6000", "sweep of 4000"}));
+  EXPECT_THAT(calls_, testing::IsSupersetOf({"sweep of 2400", "sweep of 1600"}));
 }
 
 TEST_F(SpatialSlamServiceTest, TheLastSweepNeedNotBeWhole) {
