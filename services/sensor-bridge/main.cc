@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "common/command_line.h"
+#include "sensor-bridge/hokuyo_command.h"
 #include "sensor-bridge/import_command.h"
 #include "sensor-bridge/simulate_command.h"
 #include "sensor-bridge/velodyne_command.h"
@@ -12,5 +13,6 @@ int main(int argc, char** argv) {
   lcmslam::AddImportCommand(app, command);
   lcmslam::AddSimulateCommand(app, command);
   lcmslam::AddVelodyneCommand(app, command);
+  lcmslam::AddHokuyoCommand(app, command);
   return lcmslam::RunCommandLine(app, argc, argv, [&] { return command(); });
 }

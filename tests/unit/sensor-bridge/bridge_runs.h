@@ -14,6 +14,7 @@
 #include "bus/log_reader.h"
 #include "bus/sweep_chunks.h"
 #include "common/command_line.h"
+#include "sensor-bridge/hokuyo_command.h"
 #include "sensor-bridge/import_command.h"
 #include "sensor-bridge/simulate_command.h"
 #include "support/temporary_file.h"
@@ -29,6 +30,7 @@ inline int Bridge(std::vector<std::string> arguments) {
   std::function<ExitCode()> command;
   AddImportCommand(app, command);
   AddSimulateCommand(app, command);
+  AddHokuyoCommand(app, command);
   return RunCommandLine(app, static_cast<int>(argv.size()), argv.data(), [&] { return command(); });
 }
 
@@ -67,7 +69,6 @@ struct BridgeRun {
     return sweeps;
   }
 
- protected:
   // `arguments` without --log-out.
   void Run(std::vector<std::string> arguments) {
     const TemporaryFile out;
