@@ -168,10 +168,11 @@ RegistrationResult Pipeline::StartInMotion(const TimedPatches& patches, const Re
     bool searched = false;
     registration = RegisterFromAnywhere(patches, hint, searched);
   }
-  printf("rest: fit %.0f res %.4f norm %.3f matched %d | anew fit %.0f res %.4f norm %.3f matched %d\n", Fit(from_rest),
-         from_rest.residual_m, from_rest.normalised_residual, from_rest.matched, Fit(registration),
-         registration.residual_m, registration.normalised_residual, registration.matched);
-  began_anew = IsGood(registration) && registration.normalised_residual < from_rest.normalised_residual;
+  // More patches that fit, and more closely.
+  const auto score = [](const RegistrationResult& r) {
+    return Fit(r) / (r.normalised_residual * r.normalised_residual);
+  };
+  began_anew = IsGood(registration) && score(registration) > score(from_rest);
   if (began_anew) return registration;
   begin(at_rest.mean);
   return from_rest;
