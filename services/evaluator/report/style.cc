@@ -18,7 +18,7 @@ p { max-width: 48rem; }
 .soft, caption, figcaption { color: var(--soft); font-size: .85rem; }
 .scroll { overflow-x: auto; margin: 1rem 0; }
 table { border-collapse: collapse; font-size: .85rem; }
-caption { text-align: left; padding-bottom: .3rem; max-width: 60rem; }
+caption { text-align: left; padding-bottom: .3rem; max-width: min(60rem, calc(100vw - 3.5rem)); }
 th, td { padding: .25rem .55rem; border-bottom: 1px solid var(--line); text-align: left; white-space: nowrap; }
 thead th { border-bottom: 2px solid var(--soft); }
 .number { text-align: right; font-variant-numeric: tabular-nums; }
