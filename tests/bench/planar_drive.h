@@ -1,14 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <chrono>
-#include <limits>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include <benchmark/benchmark.h>
-
+#include "scan_times.h"
 #include "simulation/planar_episode.h"
 #include "simulation/planar_worlds.h"
 
@@ -35,38 +29,5 @@ inline std::vector<PlanarFrame> Drive(int64_t beams, const RangeNoise& noise, bo
   for (int i = 0; i < episode->num_frames(); ++i) frames.push_back(episode->Frame(i));
   return frames;
 }
-
-// The time of every scan of a drive: its best over all iterations, so that other work on the machine does not count.
-class ScanTimes {
- public:
-  explicit ScanTimes(size_t scans) : best_ms_(scans, std::numeric_limits<double>::infinity()) {}
-
-  // Runs and times `process` on the i-th scan.
-  template <typename Process>
-  auto Measure(size_t i, Process&& process) {
-    const auto start = std::chrono::steady_clock::now();
-    auto result = std::forward<Process>(process)();
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-    best_ms_[i] = std::min(best_ms_[i], elapsed.count());
-    return result;
-  }
-
-  double Quantile(double q) const {
-    std::vector<double> values = best_ms_;
-    const auto nth = values.begin() + static_cast<ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
-  }
-
-  // Counters PREFIXmedian_ms, PREFIXp95_ms, PREFIXp99_ms.
-  void Report(benchmark::State& state, const std::string& prefix = "") const {
-    state.counters[prefix + "median_ms"] = Quantile(0.5);
-    state.counters[prefix + "p95_ms"] = Quantile(0.95);
-    state.counters[prefix + "p99_ms"] = Quantile(0.99);
-  }
-
- private:
-  std::vector<double> best_ms_;
-};
 
 }  // namespace lcmslam
