@@ -6,7 +6,7 @@ set -euo pipefail
 
 main() {
   episode good 1000000 8
-  episode after_a_gap 10000000 4 # a second later: 10 scans are missing
+  episode after_a_gap 10000000 10 # a second later: 10 scans are missing
   episode flood 20000000 300
   episode later 400000000 4
 

@@ -52,8 +52,10 @@ drive_in_time() {
     overflows=$("${on_slam[@]}" cat /proc/net/snmp | awk '/^Udp: [0-9]/ { print $6 }')
     disconnect_hosts
     ((overflows > 0)) || return 0
-    echo "attempt $attempt: $overflows datagrams found a full buffer: this machine is too busy"
+    echo "attempt $attempt: $overflows datagrams found a full buffer"
   done
+  finish_test
+  echo "SKIPPED: this machine is too busy" && exit 77
 }
 
 # drive FOLDER SLAM_SERVICE EPISODE...: a run over both hosts.
