@@ -14,7 +14,7 @@ struct StageSamples {
 };
 
 // What systems call the stage that iterates.
-bool IsRegistration(const std::string& stage) { return stage == "register" || stage == "match"; }
+bool IsRegistration(const std::string& stage) { return stage == "register" || stage == "match" || stage == "icp"; }
 
 void AddSample(const result::Summary& ms, StageSamples& samples) {
   samples.median_ms.push_back(ms.median());
