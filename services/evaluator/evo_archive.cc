@@ -21,35 +21,45 @@ namespace {
 using Entries = std::map<std::string, std::string>;  // contents by name
 using Values = std::vector<double>;
 
-std::string ToJson(const google::protobuf::Struct& object) {
-  std::string json;
-  return google::protobuf::util::MessageToJsonString(object, &json).ok() ? json : "";
+google::protobuf::Value JsonValue(const std::string& text) {
+  google::protobuf::Value value;
+  value.set_string_value(text);
+  return value;
+}
+
+google::protobuf::Value JsonValue(double number) {
+  google::protobuf::Value value;
+  value.set_number_value(number);
+  return value;
+}
+
+// Member by member: the fields of a Protobuf Struct come in another order in every run.
+std::string ToJson(const std::map<std::string, google::protobuf::Value>& object) {
+  std::string members;
+  for (const auto& [key, value] : object) {
+    std::string json;
+    (void)google::protobuf::util::MessageToJsonString(value, &json);
+    members += fmt::format("{}\"{}\":{}", members.empty() ? "" : ",", key, json);
+  }
+  return "{" + members + "}";
 }
 
 std::string InfoJson(const Evaluation& evaluation, const result::Evaluation& message) {
-  google::protobuf::Struct info;
-  const auto set = [&](const char* key, const std::string& text) {
-    (*info.mutable_fields())[key].set_string_value(text);
-  };
-  set("title",
-      fmt::format("APE w.r.t. translation part (m)\n(alignment: {}, no scale)", Name(evaluation.alignment.kind)));
-  set("label", "APE (m)");
-  set("ref_name", message.reference().name());
-  set("est_name", message.estimate().name());
-  return ToJson(info);
+  const std::string alignment(Name(evaluation.alignment.kind));
+  return ToJson({{"title", JsonValue("APE w.r.t. translation part (m)\n(alignment: " + alignment + ", no scale)")},
+                 {"label", JsonValue("APE (m)")},
+                 {"ref_name", JsonValue(message.reference().name())},
+                 {"est_name", JsonValue(message.estimate().name())}});
 }
 
 std::string StatsJson(const Summary& s) {
-  google::protobuf::Struct stats;
-  const auto set = [&](const char* key, double value) { (*stats.mutable_fields())[key].set_number_value(value); };
-  set("rmse", s.rmse);
-  set("mean", s.mean);
-  set("median", s.median);
-  set("std", s.sd);
-  set("min", s.min);
-  set("max", s.max);
-  set("sse", s.rmse * s.rmse * static_cast<double>(s.count));
-  return ToJson(stats);
+  return ToJson({{"rmse", JsonValue(s.rmse)},
+                 {"mean", JsonValue(s.mean)},
+                 {"median", JsonValue(s.median)},
+                 {"std", JsonValue(s.sd)},
+                 {"min", JsonValue(s.min)},
+                 {"max", JsonValue(s.max)},
+                 {"sse", JsonValue(s.rmse * s.rmse * static_cast<double>(s.count))}});
 }
 
 // NumPy's format 1.0: magic, length of the header, header padded to 64 bytes, little-endian doubles.
