@@ -45,9 +45,9 @@ struct RegistrationOptions {
   // for certainty.
   double shared_sigma_m = 0.005;  // m; the beams that fall on shared_length_m of surface share an error of this size
   double shared_length_m = 0.1;
-  double independence = 0.2;       // of what is left: one beam counts as this part of an independent one
-  double stop_sigmas = 1.0;        // stop after a step that is shorter than this part of the pose's own sigma
-  double min_eigenvalue = 0.0003;  // a direction seen by less than this part of the beams is unobservable
+  double independence = 0.2;      // of what is left: one beam counts as this part of an independent one
+  double stop_sigmas = 1.0;       // stop after a step that is shorter than this part of the pose's own sigma
+  double min_eigenvalue = 0.006;  // a direction seen by less than this part of the beams is called unobservable
   int min_points = 20;
 
   std::string Validate() const;

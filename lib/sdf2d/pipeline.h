@@ -24,7 +24,7 @@ namespace lcmslam::sdf2d {
 enum class Status : int8_t {
   kInitializing = 0,  // first scans: the pose is the initial one, the map begins
   kTracking = 1,
-  kDegenerate = 2,   // tracking, but some direction is held by prediction
+  kDegenerate = 2,   // tracking, but only the prediction holds some direction
   kRelocalized = 3,  // found again after a jump or a loss
   kLost = 4,         // the pose is the prediction; nothing was mapped
   kSkipped = 5,      // the scan was not used: no returns, or its stamp did not advance
@@ -45,7 +45,7 @@ struct Result {
   double inlier_ratio = 0.0;                  // of num_points
   double residual_rms_m = 0.0;                // over inliers
   double range_sigma_m = 0.0;                 // noise assumed at 1 m
-  std::array<bool, 3> unobservable{};         // eigen-direction nearest to map x, y, yaw was held
+  std::array<bool, 3> unobservable{};         // the unobservable direction nearest to map x, y, yaw exists
   std::array<double, kNumStages> stage_ms{};  // zeros without a stopwatch
 };
 

@@ -46,12 +46,6 @@ struct Linearization {
     a_r *= weight;
     for (double* d : {&cost, &sum_weights, &sum_lever_m2}) *d *= weight;
   }
-
-  // Forgets what the scan says along the directions that `keep` projects away.
-  void Project(const Matrix3d& keep) {
-    a_a = (keep.transpose() * a_a * keep).eval();
-    a_r = (keep.transpose() * a_r).eval();
-  }
 };
 
 struct Problem {
@@ -148,10 +142,9 @@ Matrix3d Unobservable(const Linearization& scan, double min_eigenvalue) {
 
 std::array<bool, 3> AlignResult::UnobservableAxes() const {
   const double c = state.T_map_body.cos(), s = state.T_map_body.sin();
-  const Matrix3d& held = unobservable;
-  const double along_x = Vector2d(c, -s).dot(held.topLeftCorner<2, 2>() * Vector2d(c, -s));
-  const double along_y = Vector2d(s, c).dot(held.topLeftCorner<2, 2>() * Vector2d(s, c));
-  return {along_x > 0.5, along_y > 0.5, held(2, 2) > 0.5};
+  const double along_x = Vector2d(c, -s).dot(unobservable.topLeftCorner<2, 2>() * Vector2d(c, -s));
+  const double along_y = Vector2d(s, c).dot(unobservable.topLeftCorner<2, 2>() * Vector2d(s, c));
+  return {along_x > 0.5, along_y > 0.5, unobservable(2, 2) > 0.5};
 }
 
 AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Vector2d& origin_body,
@@ -196,16 +189,14 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
       best_offset = offset;
       damping *= 0.1;
     }
-    Linearization used = best;
-    if (!result.unobservable.isZero()) used.Project(Matrix3d::Identity() - result.unobservable);
     H = prior;
-    H.topLeftCorner<3, 3>() += used.a_a;
+    H.topLeftCorner<3, 3>() += best.a_a;
     Vector6d gradient = prior * best_offset;
-    gradient.head<3>() += used.a_r;
+    gradient.head<3>() += best.a_r;
     Matrix6d damped = H;
     damped.diagonal() *= 1.0 + damping;
     const Vector6d step = -damped.ldlt().solve(gradient);
-    result.information = used.a_a;
+    result.information = best.a_a;
     offset = best_offset + step;
     if (step.dot(H * step) < options.stop_sigmas * options.stop_sigmas) {
       result.status = AlignStatus::kConverged;

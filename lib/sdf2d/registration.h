@@ -21,14 +21,14 @@ struct AlignResult {
   MotionState state;                                      // the prediction where too few points matched
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of the pose from this scan alone, body frame
   Eigen::Matrix3d unobservable =
-      Eigen::Matrix3d::Zero();  // projector onto pose directions held by prediction, body frame
+      Eigen::Matrix3d::Zero();  // projector onto pose directions that the scan hardly sees, body frame
   int iterations = 0;
   int points = 0;   // offered
   int matched = 0;  // fell on mapped surface
   int inliers = 0;
   double residual_rms_m = 0.0;  // over inliers
 
-  // Whether the held direction nearest to each map axis (x, y, yaw) exists.
+  // Whether the unobservable direction nearest to each map axis (x, y, yaw) exists.
   std::array<bool, 3> UnobservableAxes() const;
   double InlierRatio() const { return points > 0 ? static_cast<double>(inliers) / points : 0.0; }
 };
@@ -40,7 +40,8 @@ struct AlignResult {
 // Gauss-Newton on SE(2) x R^3 with Levenberg-Marquardt damping and Huber's rho (in sigmas of the beam alone). The scan
 // is deskewed once, with the predicted velocity v, and moves the velocity only through the prediction's covariance P: a
 // velocity estimated from the distortion within the scan takes errors of the map, which its beams share, for motion.
-// Directions that the scan does not determine stay at the prediction. Pure.
+// Along directions that the scan does not determine the prediction's covariance decides: they stay where it put them,
+// and the little that a scan does say of them counts for no more than it is worth. Pure.
 [[nodiscard]] AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points,
                                 const Eigen::Vector2d& origin_body, const NoiseModel& noise,
                                 const MotionState& prediction, const RegistrationOptions& options);
