@@ -19,7 +19,7 @@ void PrintStatuses(const char* path) {
     if (!event.channel.ends_with("_STATUS")) continue;
     const auto s = Decode<service_status_t>(event.data);
     if (!s) continue;
-    fmt::print("{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.1f}\t{:.1f}\t{}\n", static_cast<double>(event.utime) / 1e6,
+    fmt::print("{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3f}\t{:.1f}\t{}\n", static_cast<double>(event.utime) / 1e6,
                s->name, kStates.at(static_cast<size_t>(s->state)), s->received, s->processed, s->dropped, s->refused,
                s->missing, s->latency_p99_ms, s->rss_mb, s->text);
   }
