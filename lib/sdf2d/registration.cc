@@ -183,7 +183,6 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
       if (damping > 1e3) break;
     } else {
       if (scan.matched < options.min_points) break;
-      result.unobservable = Unobservable(scan, options.min_eigenvalue);
       best = scan;
       best_cost = cost;
       best_offset = offset;
@@ -196,7 +195,6 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
     Matrix6d damped = H;
     damped.diagonal() *= 1.0 + damping;
     const Vector6d step = -damped.ldlt().solve(gradient);
-    result.information = best.a_a;
     offset = best_offset + step;
     if (step.dot(H * step) < options.stop_sigmas * options.stop_sigmas) {
       result.status = AlignStatus::kConverged;
@@ -209,6 +207,8 @@ AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points, const Ve
   if (result.status != AlignStatus::kConverged) result.status = AlignStatus::kIterationLimit;
   result.state = state_at(best_offset);
   result.state.covariance = H.ldlt().solve(Matrix6d::Identity());
+  result.information = best.a_a;
+  result.unobservable = Unobservable(best, options.min_eigenvalue);
   result.matched = best.matched;
   result.inliers = best.inliers;
   result.residual_rms_m = best.inliers > 0 ? std::sqrt(best.inlier_sum_m2 / best.inliers) : 0.0;
