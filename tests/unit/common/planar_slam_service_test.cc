@@ -10,9 +10,8 @@
 #include <lcmslam/slam_command_t.hpp>
 #include <lcmslam/slam_diagnostics_t.hpp>
 
-#include "bus/log_writer.h"
 #include "bus/messages.h"
-#include "support/temporary_file.h"
+#include "unit/common/slam_service_run.h"
 
 namespace lcmslam {
 namespace {
@@ -46,55 +45,19 @@ class FakeSlam : public PlanarSlam {
   double x_m_ = 0.0;
 };
 
-class PlanarSlamServiceTest : public testing::Test {
+class PlanarSlamServiceTest : public SlamServiceRun {
  protected:
-  void Write(int64_t utime, const std::string& channel, Bytes data) { input_.Write(utime, channel, data); }
-  template <LcmMessage M>
-  void Write(int64_t utime, const std::string& channel, const M& message) {
-    input_.Write(utime, channel, message);
+  std::unique_ptr<Service> MakeService(ServiceContext& context) override {
+    PlanarSlamOptions options;
+    options.odometry_channel = "ODOMETRY";
+    options.pose_channel = "FAKE_POSE";
+    options.diagnostics_channel = "FAKE_DIAGNOSTICS";
+    options.mounting_configured = true;
+    return std::make_unique<PlanarSlamService>(options, 77, std::make_unique<FakeSlam>(calls_), "fake-slam", context);
   }
   void WriteScan(int64_t utime, size_t beams = 3) {
     Write(utime, "LIDAR_2D", ToMessage(PlanarScan{utime, std::vector<Beam>(beams, {1.0F, 0.0F, 0})}));
   }
-  void WriteCommand(int64_t utime, int8_t command, double x_m = 0.0, const std::string& service = "") {
-    slam_command_t message{};
-    message.command = command;
-    message.pos[0] = x_m;
-    message.quat[0] = 1.0;
-    message.service = service;
-    Write(utime, "SLAM_COMMAND", message);
-  }
-
-  // All events on a channel of the output.
-  std::vector<Event> RunAndRead(const std::string& channel) {
-    input_.Flush();
-    RunOptions run;
-    run.log_in = folder_ / "in.lcm";
-    run.log_out = folder_ / "out.lcm";
-    run.out = folder_;
-    ServiceContext context("fake-slam", run);
-    RunLogToLog(context, [&](ServiceContext& c) {
-      PlanarSlamOptions options;
-      options.odometry_channel = "ODOMETRY";
-      options.pose_channel = "FAKE_POSE";
-      options.diagnostics_channel = "FAKE_DIAGNOSTICS";
-      options.mounting_configured = true;
-      return std::make_unique<PlanarSlamService>(options, 77, std::make_unique<FakeSlam>(calls_), "fake-slam", c);
-    });
-    refused_ = context.health().refused();
-    std::vector<Event> events;
-    LogReader reader(run.log_out);
-    for (Event event; reader.Next(event);) {
-      if (event.channel == channel) events.push_back(event);
-    }
-    return events;
-  }
-
-  const TemporaryFolder temporary_;
-  const std::filesystem::path& folder_ = temporary_.path();
-  LogWriter input_{folder_ / "in.lcm"};
-  std::vector<std::string> calls_;
-  int64_t refused_ = 0;
 };
 
 TEST_F(PlanarSlamServiceTest, PublishesPoseAtTheScan) {

@@ -11,10 +11,9 @@
 #include <lcmslam/slam_command_t.hpp>
 #include <lcmslam/slam_diagnostics_t.hpp>
 
-#include "bus/log_writer.h"
 #include "bus/messages.h"
 #include "bus/sweep_chunks.h"
-#include "support/temporary_file.h"
+#include "unit/common/slam_service_run.h"
 
 namespace lcmslam {
 namespace {
@@ -51,12 +50,18 @@ class FakeSlam : public SpatialSlam {
   Pose3 T_map_lidar_;
 };
 
-class SpatialSlamServiceTest : public testing::Test {
+class SpatialSlamServiceTest : public SlamServiceRun {
  protected:
-  template <class M>
-  void Write(int64_t utime, const std::string& channel, const M& message) {
-    input_.Write(utime, channel, message);
+  void SetUp() override {
+    options_.pose_channel = "FAKE_POSE";
+    options_.diagnostics_channel = "FAKE_DIAGNOSTICS";
+    options_.odometry_channel = "ODOMETRY";
+    options_.imu_channel = "IMU";
   }
+  std::unique_ptr<Service> MakeService(ServiceContext& context) override {
+    return std::make_unique<SpatialSlamService>(options_, 77, std::make_unique<FakeSlam>(calls_), "fake-slam", context);
+  }
+
   // `lost`: chunks at the end that do not come.
   void WriteSweep(int64_t utime, size_t points = 5000, size_t lost = 0) {
     const Sweep sweep{utime, std::vector<SweepPoint>(points)};
@@ -66,41 +71,8 @@ class SpatialSlamServiceTest : public testing::Test {
   }
   void WriteMounting() { Write(0, "LIDAR_3D_EXTRINSICS", ExtrinsicsMessage(0, kMounting)); }
 
-  // All events on a channel of the output.
-  std::vector<Event> RunAndRead(const std::string& channel) {
-    input_.Flush();
-    RunOptions run;
-    run.log_in = folder_ / "in.lcm";
-    run.log_out = folder_ / "out.lcm";
-    run.out = folder_;
-    ServiceContext context("fake-slam", run);
-    RunLogToLog(context, [&](ServiceContext& c) {
-      return std::make_unique<SpatialSlamService>(options_, 77, std::make_unique<FakeSlam>(calls_), "fake-slam", c);
-    });
-    refused_ = context.health().refused();
-    missing_ = context.health().missing();
-    std::vector<Event> events;
-    LogReader reader(run.log_out);
-    for (Event event; reader.Next(event);) {
-      if (event.channel == channel) events.push_back(event);
-    }
-    return events;
-  }
-
-  void SetUp() override {
-    options_.pose_channel = "FAKE_POSE";
-    options_.diagnostics_channel = "FAKE_DIAGNOSTICS";
-    options_.odometry_channel = "ODOMETRY";
-    options_.imu_channel = "IMU";
-  }
-
-  const TemporaryFolder temporary_;
-  const std::filesystem::path& folder_ = temporary_.path();
-  LogWriter input_{folder_ / "in.lcm"};
   SpatialSlamOptions options_;
-  std::vector<std::string> calls_;
   int32_t sweep_number_ = 0;
-  int64_t refused_ = 0, missing_ = 0;
 };
 
 TEST_F(SpatialSlamServiceTest, PublishesTheBody) {
@@ -183,19 +155,12 @@ TEST_F(SpatialSlamServiceTest, OtherSensorsReachTheAlgorithm) {
 }
 
 TEST_F(SpatialSlamServiceTest, ObeysCommands) {
-  const auto command = [&](int64_t utime, int8_t what, double x_m = 0.0) {
-    slam_command_t message{};
-    message.command = what;
-    message.pos[0] = x_m;
-    message.quat[0] = 1.0;
-    Write(utime, "SLAM_COMMAND", message);
-  };
   WriteMounting();
-  command(1, slam_command_t::SET_POSE, 10.0);
+  WriteCommand(1, slam_command_t::SET_POSE, 10.0);
   WriteSweep(1000);
-  command(1001, slam_command_t::RESET);
-  command(1002, slam_command_t::LOCALIZE_ONLY);
-  command(1003, slam_command_t::SAVE);
+  WriteCommand(1001, slam_command_t::RESET);
+  WriteCommand(1002, slam_command_t::LOCALIZE_ONLY);
+  WriteCommand(1003, slam_command_t::SAVE);
   WriteSweep(2000);
   const auto poses = RunAndRead("FAKE_POSE");
   ASSERT_EQ(poses.size(), 2U);
