@@ -56,10 +56,14 @@ void PublishEpisode(const SpatialEpisode& episode, SensorPublisher& publisher, B
   }
 }
 
+BoundSummary::BoundSummary(std::ostream* csv) : csv_(csv) {
+  if (csv_ != nullptr) *csv_ << "utime_us,position_m,rotation_rad\n";
+}
+
 void BoundSummary::Add(int64_t utime, const std::optional<PoseBound>& bound) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const PoseBound row = bound.value_or(PoseBound{kNone, kNone});
-  csv_ += fmt::format("{},{:.6g},{:.6g}\n", utime, row.position_m, row.rotation_rad);
+  if (csv_ != nullptr) *csv_ << fmt::format("{},{:.6g},{:.6g}\n", utime, row.position_m, row.rotation_rad);
   if (!bound) {
     ++unbounded_;
     return;

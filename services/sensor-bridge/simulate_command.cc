@@ -31,9 +31,8 @@ struct SimulateOptions {
   OutputOptions output;
 };
 
-void WriteBound(const std::filesystem::path& path, const BoundSummary& bound) {
-  std::ofstream file(path, std::ios::binary);
-  file << bound.csv();
+// Throws CommandError (kRuntime) unless all that was written to the file is in it.
+void RequireWritten(std::ofstream& file, const std::filesystem::path& path) {
   if (!file.flush()) throw CommandError(ExitCode::kRuntime, fmt::format("{}: cannot be written", path.string()));
 }
 
@@ -52,7 +51,9 @@ ExitCode Simulate(const SimulateOptions& options) {
   CatchStopSignals();
   BridgeOutput output(options.output);
   SensorPublisher publisher(output, options.output.quiet);
-  BoundSummary bound;
+  std::ofstream bound_file;
+  if (!options.bound_file.empty()) bound_file.open(options.bound_file, std::ios::binary);
+  BoundSummary bound(options.bound_file.empty() ? nullptr : &bound_file);
   std::visit(
       [&](const auto& any_episode) {
         publisher.ExpectScans(any_episode.num_frames());
@@ -61,7 +62,7 @@ ExitCode Simulate(const SimulateOptions& options) {
       episode);
   publisher.Finish();
   output.Finish();
-  if (!options.bound_file.empty()) WriteBound(options.bound_file, bound);
+  if (!options.bound_file.empty()) RequireWritten(bound_file, options.bound_file);
   if (!options.output.quiet) fmt::print(stderr, "sensor-bridge: {}\n", publisher.Summary());
   fmt::print("{}\n", bound.Line());
   return ExitCode::kOk;
