@@ -12,7 +12,6 @@ namespace lcmslam {
 namespace {
 
 // 15 Ethernet packets: fewer would get lost less often, but a turn of a VLP-16 has to fit LCM's queue of 30 messages.
-// messages.
 constexpr size_t kMaxChunkBytes = 22'000;
 constexpr size_t kHeaderBytes = 32;
 constexpr size_t kPointBytes = 22;

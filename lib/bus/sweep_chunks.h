@@ -14,7 +14,7 @@ namespace lcmslam {
 class imu_t;
 class point_cloud_chunk_t;
 
-// The sweep in chunks of at most 60 kB (what UDP carries on default kernel buffers), at least one.
+// The sweep in chunks of at most 22 kB, at least one.
 std::vector<point_cloud_chunk_t> ToChunks(const Sweep& sweep, int32_t sweep_number);
 
 // None unless a well-formed point_cloud_chunk_t whose chunk lies below num_chunks and whose stamp is reasonable.
