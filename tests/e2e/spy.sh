@@ -24,7 +24,7 @@ main() {
 }
 
 check_map() {
-  local truth scan estimate=cc79a7
+  local truth scan estimate=0072b2
   truth=$(color GROUND_TRUTH) scan=$(color SCAN)
   check "map: free space" at_least "$(pixels count shots/map.png fafafa)" 20000
   check "map: ground truth" at_least "$(pixels count shots/map.png "$truth")" 300

@@ -16,7 +16,16 @@ final class Camera {
   }
 
   void zoom(double factor) {
-    distance = Math.max(MIN_DISTANCE, Math.min(MAX_DISTANCE, distance * factor));
+    moveTo(distance * factor);
+  }
+
+  /** So far (m) from the target. */
+  void moveTo(double newDistance) {
+    distance = Math.max(MIN_DISTANCE, Math.min(MAX_DISTANCE, newDistance));
+  }
+
+  double distance() {
+    return distance;
   }
 
   /** So many pixels right and down. */

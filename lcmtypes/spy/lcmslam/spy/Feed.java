@@ -68,8 +68,8 @@ final class Feed implements LCMSubscriber {
   private void take(String channel, LCMDataInputStream in) throws IOException {
     long type = in.readLong();
     in.reset();
-    if (type == planar_scan_t.LCM_FINGERPRINT) world.setScan(channel, PlanarWorld.Scan.of(new planar_scan_t(in)));
-    else if (type == planar_lidar_t.LCM_FINGERPRINT) world.setScan(channel, PlanarWorld.Scan.of(new planar_lidar_t(in)));
+    if (type == planar_scan_t.LCM_FINGERPRINT) world.setScan(channel, Scan.of(new planar_scan_t(in)));
+    else if (type == planar_lidar_t.LCM_FINGERPRINT) world.setScan(channel, Scan.of(new planar_lidar_t(in)));
     else if (type == pose_t.LCM_FINGERPRINT) addPose(channel, new pose_t(in));
     else if (type == pose_xyt_t.LCM_FINGERPRINT) world.addPose(channel, PlanarWorld.Pose.of(new pose_xyt_t(in)));
     else if (type == rigid_transform_t.LCM_FINGERPRINT) setMounting(channel, new rigid_transform_t(in));

@@ -4,9 +4,11 @@ import java.awt.BorderLayout;
 import java.awt.Color;
 import java.awt.Component;
 import java.awt.Dimension;
+import java.awt.Font;
 import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
+import javax.swing.BorderFactory;
 import javax.swing.JLabel;
 import javax.swing.JPanel;
 import javax.swing.JScrollPane;
@@ -19,8 +21,9 @@ import lcmslam.service_status_t;
 final class HealthBoard extends JPanel implements Refreshed {
   private static final long serialVersionUID = 1;
   private static final String[] COLUMNS = {
-    "service", "state", "Hz", "p50 ms", "p95 ms", "p99 ms", "x real time", "received", "dropped", "refused", "missing", "kernel", "MB", "age s", "says"
+    "service", "state", "Hz", "p50 ms", "p95 ms", "p99 ms", "real time", "received", "dropped", "refused", "missing", "host lost", "MB", "age s", "says"
   };
+  private static final int[] WIDTHS = {150, 70, 50, 60, 60, 60, 70, 80, 65, 60, 60, 65, 45, 45, 320};
   private static final String[] STATES = {"starting", "waiting", "ok", "degraded", "failed"};
   private static final double SILENT_S = 3;  // a status comes once a second
 
@@ -30,12 +33,18 @@ final class HealthBoard extends JPanel implements Refreshed {
 
   HealthBoard(Feed feed) {
     super(new BorderLayout());
-    setPreferredSize(new Dimension(1150, 260));
+    setPreferredSize(new Dimension(1280, 260));
     this.feed = feed;
     JTable table = new JTable(model);
     table.setDefaultRenderer(Object.class, new Renderer());
-    table.getColumnModel().getColumn(0).setPreferredWidth(150);
-    table.getColumnModel().getColumn(COLUMNS.length - 1).setPreferredWidth(260);
+    for (int i = 0; i < WIDTHS.length; ++i) table.getColumnModel().getColumn(i).setPreferredWidth(WIDTHS[i]);
+    table.setRowHeight(24);
+    table.setShowVerticalLines(false);
+    table.setGridColor(Palette.FAINT);
+    table.setFillsViewportHeight(true);
+    table.getTableHeader().setReorderingAllowed(false);
+    footer.setFont(footer.getFont().deriveFont(Font.PLAIN));
+    footer.setBorder(BorderFactory.createEmptyBorder(6, 8, 6, 8));
     add(new JScrollPane(table), BorderLayout.CENTER);
     add(footer, BorderLayout.SOUTH);
     refresh();
@@ -98,7 +107,7 @@ final class HealthBoard extends JPanel implements Refreshed {
         case 3: return String.format("%.2f", s.latency_p50_ms);
         case 4: return String.format("%.2f", s.latency_p95_ms);
         case 5: return String.format("%.2f", s.latency_p99_ms);
-        case 6: return String.format("%.1f", s.real_time_factor);
+        case 6: return String.format("x %.0f", s.real_time_factor);
         case 7: return s.received;
         case 8: return s.dropped;
         case 9: return s.refused;
@@ -115,6 +124,10 @@ final class HealthBoard extends JPanel implements Refreshed {
   private static final class Renderer extends DefaultTableCellRenderer {
     private static final long serialVersionUID = 1;
 
+    Renderer() {
+      putClientProperty("html.disable", true);  // texts are shown as they come from the bus
+    }
+
     @Override
     public Component getTableCellRendererComponent(JTable table, Object value, boolean selected, boolean focus, int row, int column) {
       Component cell = super.getTableCellRendererComponent(table, value, selected, focus, row, column);
@@ -122,6 +135,8 @@ final class HealthBoard extends JPanel implements Refreshed {
       if (column == 1) color = "ok".equals(value) ? Palette.GOOD : "waiting".equals(value) || "starting".equals(value) ? Palette.WARNING : Palette.BAD;
       if (column >= 8 && column <= 11 && !Long.valueOf(0).equals(value)) color = Palette.BAD;
       cell.setForeground(color);
+      setBorder(BorderFactory.createEmptyBorder(0, 6, 0, 6));
+      setHorizontalAlignment(column >= 2 && column < COLUMNS.length - 1 ? RIGHT : LEFT);
       return cell;
     }
   }
@@ -129,6 +144,7 @@ final class HealthBoard extends JPanel implements Refreshed {
   @Override
   public void refresh() {
     model.update(feed.statuses());
-    footer.setText(" malformed messages seen by this window: " + feed.refused());
+    footer.setText("dropped: the service's queue was full   refused: malformed   missing: by the sender's stamps   "
+        + "host lost: receive buffers were full, of any program   malformed messages seen here: " + feed.refused());
   }
 }

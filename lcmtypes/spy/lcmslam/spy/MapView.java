@@ -14,18 +14,26 @@ import java.awt.geom.Ellipse2D;
 import java.awt.geom.Line2D;
 import java.awt.geom.Path2D;
 import java.awt.geom.Point2D;
+import java.awt.geom.Rectangle2D;
 import java.util.List;
 import java.util.Map;
 import javax.swing.JPanel;
+import javax.swing.SwingUtilities;
 
-/** Map, scan, poses with trails, ground truth laid over the estimate. Wheel zooms, drag pans, double click follows the estimate again. */
+/**
+ * Map, scan, poses with trails, ground truth laid over the estimate. Shows all of it until the wheel zooms or a drag pans; double
+ * click follows the estimate, right click shows all again.
+ */
 final class MapView extends JPanel {
   private static final long serialVersionUID = 1;
   private static final double MIN_SCALE = 0.5, MAX_SCALE = 2000;  // pixels a metre
+  private static final double MAX_FITTED_SCALE = 150, MIN_SHOWN_M = 2, FILLED = 0.9;
+
+  private enum Mode { WHOLE, FOLLOWING, FREE }
 
   private final transient PlanarWorld world;
-  private double scale = 60, centerX, centerY;
-  private boolean following = true;
+  private double scale = MAX_FITTED_SCALE, centerX, centerY;
+  private Mode mode = Mode.WHOLE;
 
   MapView(PlanarWorld world) {
     this.world = world;
@@ -43,13 +51,14 @@ final class MapView extends JPanel {
     @Override
     public void mousePressed(MouseEvent e) {
       grip = e.getPoint();
-      if (e.getClickCount() == 2) following = true;
+      if (SwingUtilities.isRightMouseButton(e)) mode = Mode.WHOLE;
+      else if (e.getClickCount() == 2) mode = Mode.FOLLOWING;
       repaint();
     }
 
     @Override
     public void mouseDragged(MouseEvent e) {
-      following = false;
+      mode = Mode.FREE;
       centerX -= (e.getX() - grip.getX()) / scale;
       centerY += (e.getY() - grip.getY()) / scale;
       grip = e.getPoint();
@@ -63,6 +72,7 @@ final class MapView extends JPanel {
       double dx = e.getX() - getWidth() / 2.0, dy = getHeight() / 2.0 - e.getY();  // what is under the pointer stays there
       centerX += dx / before - dx / scale;
       centerY += dy / before - dy / scale;
+      if (mode == Mode.WHOLE) mode = Mode.FREE;
       repaint();
     }
   }
@@ -73,20 +83,18 @@ final class MapView extends JPanel {
     Graphics2D g = (Graphics2D) graphics.create();
     g.setRenderingHint(RenderingHints.KEY_ANTIALIASING, RenderingHints.VALUE_ANTIALIAS_ON);
     List<PlanarWorld.Way> ways = world.ways();
+    List<PlanarWorld.Patch> map = world.map();
     PlanarWorld.Way estimate = estimateOf(ways);
-    if (following && estimate != null) {
-      centerX = estimate.latest.x;
-      centerY = estimate.latest.y;
-    }
+    aim(map, ways, estimate);
     AffineTransform screen = g.getTransform();
     g.translate(getWidth() / 2.0, getHeight() / 2.0);
     g.scale(scale, -scale);
     g.translate(-centerX, -centerY);
-    drawMap(g);
+    for (PlanarWorld.Patch patch : map) draw(g, patch);
     drawWays(g, ways, estimate);
     if (estimate != null) drawScans(g, estimate.latest);
     g.setTransform(screen);
-    drawLegend(g, ways);
+    drawOverlay(g, ways, estimate);
     g.dispose();
   }
 
@@ -105,11 +113,39 @@ final class MapView extends JPanel {
     return channel.equals("GROUND_TRUTH") || channel.equals("TRUE_POSE");
   }
 
-  private void drawMap(Graphics2D g) {
-    List<PlanarWorld.Patch> tiles = world.tiles();
-    PlanarWorld.Patch grid = world.grid();
-    if (grid != null) draw(g, grid);
-    for (PlanarWorld.Patch tile : tiles) draw(g, tile);
+  private void aim(List<PlanarWorld.Patch> map, List<PlanarWorld.Way> ways, PlanarWorld.Way estimate) {
+    if (mode == Mode.WHOLE) showAll(boundsOf(map, ways));
+    if (mode != Mode.FOLLOWING || estimate == null) return;
+    centerX = estimate.latest.x;
+    centerY = estimate.latest.y;
+  }
+
+  /** Ground truth does not count, for it is moved onto the estimate. */
+  private static Rectangle2D boundsOf(List<PlanarWorld.Patch> map, List<PlanarWorld.Way> ways) {
+    Path2D all = new Path2D.Double();
+    for (PlanarWorld.Patch patch : map) {
+      if (!patch.known.isEmpty()) all.append(patch.known, false);
+    }
+    for (PlanarWorld.Way way : ways) {
+      if (!isGroundTruth(way.channel)) all.append(pathOf(way), false);
+    }
+    return all.getBounds2D();
+  }
+
+  private static Path2D pathOf(PlanarWorld.Way way) {
+    Path2D path = new Path2D.Double();
+    for (PlanarWorld.Pose p : way.poses) {
+      if (path.getCurrentPoint() == null) path.moveTo(p.x, p.y);
+      else path.lineTo(p.x, p.y);
+    }
+    return path;
+  }
+
+  private void showAll(Rectangle2D bounds) {
+    double fitting = Math.min(getWidth() / Math.max(MIN_SHOWN_M, bounds.getWidth()), getHeight() / Math.max(MIN_SHOWN_M, bounds.getHeight()));
+    scale = Math.max(MIN_SCALE, Math.min(MAX_FITTED_SCALE, FILLED * fitting));
+    centerX = bounds.getCenterX();
+    centerY = bounds.getCenterY();
   }
 
   private static void draw(Graphics2D g, PlanarWorld.Patch p) {
@@ -119,25 +155,21 @@ final class MapView extends JPanel {
     g.drawImage(p.image, toMap, null);
   }
 
-  private Color colorOf(String channel, int i) {
-    return isGroundTruth(channel) ? Palette.GROUND_TRUTH : Palette.series(i);
+  /** The estimate has the same in every view. */
+  private static Color colorOf(List<PlanarWorld.Way> ways, PlanarWorld.Way way, PlanarWorld.Way estimate) {
+    if (isGroundTruth(way.channel)) return Palette.GROUND_TRUTH;
+    return way == estimate ? Palette.series(0) : Palette.series(1 + ways.indexOf(way));
   }
 
   private void drawWays(Graphics2D g, List<PlanarWorld.Way> ways, PlanarWorld.Way estimate) {
     AffineTransform map = g.getTransform();
-    int i = 0;
     for (PlanarWorld.Way way : ways) {
+      boolean isTruth = isGroundTruth(way.channel);
       g.setTransform(map);
-      if (isGroundTruth(way.channel) && estimate != null) g.transform(Alignment.of(way.poses, estimate.poses));
-      g.setColor(colorOf(way.channel, i++));
-      float width = isGroundTruth(way.channel) ? 6 : 2;  // seen on both sides of an estimate that lies on it
-      g.setStroke(new BasicStroke((float) (width / scale)));
-      Path2D path = new Path2D.Double();
-      for (PlanarWorld.Pose p : way.poses) {
-        if (path.getCurrentPoint() == null) path.moveTo(p.x, p.y);
-        else path.lineTo(p.x, p.y);
-      }
-      g.draw(path);
+      if (isTruth && estimate != null) g.transform(Alignment.of(way.poses, estimate.poses));
+      g.setColor(colorOf(ways, way, estimate));
+      g.setStroke(new BasicStroke((float) ((isTruth ? 6 : 2) / scale)));  // truth is seen on both sides of an estimate that lies on it
+      g.draw(pathOf(way));
       PlanarWorld.Pose at = way.latest;
       double r = 9 / scale;
       g.fill(new Ellipse2D.Double(at.x - r / 2, at.y - r / 2, r, r));
@@ -149,7 +181,7 @@ final class MapView extends JPanel {
   private void drawScans(Graphics2D g, PlanarWorld.Pose body) {
     double dot = 3 / scale;
     g.setColor(Palette.SCAN);
-    for (Map.Entry<String, PlanarWorld.Scan> e : world.scansAt(body.utime).entrySet()) {
+    for (Map.Entry<String, Scan> e : world.scansAt(body.utime).entrySet()) {
       if (e.getKey().startsWith("LIDAR_2D_")) continue;  // a further lidar, which the estimate does not use
       double[] mounting = world.mounting(e.getKey());
       AffineTransform toMap = AffineTransform.getTranslateInstance(body.x, body.y);
@@ -157,7 +189,7 @@ final class MapView extends JPanel {
       toMap.translate(mounting[0], mounting[1]);
       toMap.rotate(mounting[2]);
       Point2D p = new Point2D.Double();
-      PlanarWorld.Scan scan = e.getValue();
+      Scan scan = e.getValue();
       for (int i = 0; i < scan.x.length; ++i) {
         toMap.transform(new Point2D.Double(scan.x[i], scan.y[i]), p);
         g.fill(new Ellipse2D.Double(p.getX() - dot / 2, p.getY() - dot / 2, dot, dot));
@@ -165,20 +197,16 @@ final class MapView extends JPanel {
     }
   }
 
-  private void drawLegend(Graphics2D g, List<PlanarWorld.Way> ways) {
-    int y = 20, i = 0;
+  private void drawOverlay(Graphics2D g, List<PlanarWorld.Way> ways, PlanarWorld.Way estimate) {
+    Overlay overlay = new Overlay(g, getWidth(), getHeight());
     for (PlanarWorld.Way way : ways) {
-      g.setColor(colorOf(way.channel, i++));
-      g.fillRect(10, y - 9, 14, 10);
-      g.setColor(Palette.INK);
-      g.drawString(String.format("%s  %.3f, %.3f m  %.1f deg", way.channel, way.latest.x, way.latest.y, Math.toDegrees(way.latest.yaw)), 30, y);
-      y += 18;
+      PlanarWorld.Pose at = way.latest;
+      String moved = isGroundTruth(way.channel) && estimate != null ? "  (laid over the estimate)" : "";
+      overlay.add(colorOf(ways, way, estimate), String.format("%s  %.3f, %.3f m  %.1f\u00b0%s", way.channel, at.x, at.y, Math.toDegrees(at.yaw), moved));
     }
-    double meters = Math.pow(10, Math.floor(Math.log10(160 / scale)));
-    int bottom = getHeight() - 14, length = (int) Math.round(meters * scale);
-    g.setColor(Palette.INK);
-    g.fillRect(10, bottom, length, 3);
-    g.drawString(meters >= 1 ? String.format("%.0f m", meters) : String.format("%.0f cm", 100 * meters), 10, bottom - 5);
-    if (!following) g.drawString("double click: follow", getWidth() - 140, bottom);
+    if (estimate != null && !world.scansAt(estimate.latest.utime).isEmpty()) overlay.add(Palette.SCAN, "scan");
+    overlay.drawLegend();
+    overlay.drawScaleBar(scale);
+    if (mode == Mode.FREE) overlay.drawHint("double click: follow   right click: show all");
   }
 }

@@ -1,5 +1,7 @@
 package lcmslam.spy;
 
+import java.awt.Rectangle;
+import java.awt.geom.Rectangle2D;
 import java.awt.image.BufferedImage;
 import java.util.ArrayDeque;
 import java.util.ArrayList;
@@ -9,8 +11,6 @@ import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
 import lcmslam.occupancy_grid_t;
-import lcmslam.planar_lidar_t;
-import lcmslam.planar_scan_t;
 import lcmslam.pose_t;
 import lcmslam.pose_xyt_t;
 import lcmslam.rigid_transform_t;
@@ -18,39 +18,9 @@ import lcmslam.sdf_tile_t;
 
 /** The latest scan, poses with trails, and map, as the map view draws them. Bounded in memory. Any thread. */
 final class PlanarWorld {
-  /** Lidar frame, m; only returns. */
-  static final class Scan {
-    final long utime;
-    final float[] x, y;
-
-    private Scan(long utime, float[] ranges, Angle angle) {
-      this.utime = utime;
-      float[] px = new float[ranges.length], py = new float[ranges.length];
-      int n = 0;
-      for (int i = 0; i < ranges.length; ++i) {
-        if (!(ranges[i] > 0) || Float.isInfinite(ranges[i])) continue;
-        px[n] = (float) (ranges[i] * Math.cos(angle.at(i)));
-        py[n++] = (float) (ranges[i] * Math.sin(angle.at(i)));
-      }
-      x = java.util.Arrays.copyOf(px, n);
-      y = java.util.Arrays.copyOf(py, n);
-    }
-
-    private interface Angle {
-      double at(int beam);
-    }
-
-    static Scan of(planar_scan_t m) {
-      return new Scan(m.utime, m.ranges, i -> m.thetas[i]);
-    }
-
-    static Scan of(planar_lidar_t m) {
-      return new Scan(m.utime, m.ranges, i -> m.rad0 + i * m.radstep);
-    }
-  }
-
   /** T_map_body in the plane. */
   static final class Pose {
+    private static final double MAX_COORDINATE = 1e6;  // m, rad
     final long utime;
     final double x, y, yaw;
 
@@ -73,36 +43,9 @@ final class PlanarWorld {
       return Math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
     }
 
-    boolean isFinite() {
-      return !Double.isNaN(x + y + yaw) && !Double.isInfinite(x + y + yaw);
-    }
-  }
-
-  /** The way one pose channel went. When it grows too long every second point goes. */
-  static final class Trail {
-    static final int MAX_POINTS = 20000;
-    final List<Pose> poses = new ArrayList<>();
-    Pose latest;
-    private int stride = 1, skipped;
-
-    void add(Pose pose) {
-      if (latest != null && pose.utime < latest.utime) restart();  // a service that began again
-      latest = pose;
-      if (++skipped < stride) return;
-      skipped = 0;
-      poses.add(pose);
-      if (poses.size() < MAX_POINTS) return;
-      List<Pose> kept = new ArrayList<>();
-      for (int i = 0; i < poses.size(); i += 2) kept.add(poses.get(i));
-      poses.clear();
-      poses.addAll(kept);
-      stride *= 2;
-    }
-
-    private void restart() {
-      poses.clear();
-      stride = 1;
-      skipped = 0;
+    /** Whether it can be drawn: NaN and places that no robot goes to cannot. */
+    boolean isUsable() {
+      return Math.abs(x) < MAX_COORDINATE && Math.abs(y) < MAX_COORDINATE && Math.abs(yaw) < MAX_COORDINATE;
     }
   }
 
@@ -110,21 +53,39 @@ final class PlanarWorld {
   static final class Patch {
     final double left, bottom, width, height;  // m, map frame
     final BufferedImage image;
-    final long utime;
+    /** The part of it where something is known; empty: nowhere. */
+    final Rectangle2D known;
 
-    Patch(double left, double bottom, double width, double height, BufferedImage image, long utime) {
+    Patch(double left, double bottom, double width, double height, BufferedImage image) {
       this.left = left;
       this.bottom = bottom;
       this.width = width;
       this.height = height;
       this.image = image;
-      this.utime = utime;
+      Rectangle opaque = opaquePart(image);
+      double cellWidth = width / image.getWidth(), cellHeight = height / image.getHeight();
+      known = new Rectangle2D.Double(left + cellWidth * opaque.x, bottom + height - cellHeight * (opaque.y + opaque.height),
+          cellWidth * opaque.width, cellHeight * opaque.height);
+    }
+
+    private static Rectangle opaquePart(BufferedImage image) {
+      int left = image.getWidth(), top = image.getHeight(), right = -1, bottom = -1;
+      for (int v = 0; v < image.getHeight(); ++v) {
+        for (int u = 0; u < image.getWidth(); ++u) {
+          if (image.getRGB(u, v) >>> 24 == 0) continue;
+          left = Math.min(left, u);
+          right = Math.max(right, u);
+          top = Math.min(top, v);
+          bottom = Math.max(bottom, v);
+        }
+      }
+      return right < 0 ? new Rectangle() : new Rectangle(left, top, right - left + 1, bottom - top + 1);
     }
   }
 
   private static final int MAX_TILES = 20000, MAX_SCANS = 8;
   private final Map<Long, Patch> tiles = new HashMap<>();
-  private final Map<String, Trail> trails = new TreeMap<>();
+  private final Map<String, Trail<Pose>> trails = new TreeMap<>();
   private final Map<String, Deque<Scan>> scans = new TreeMap<>();  // newest last
   private final Map<String, double[]> mountings = new TreeMap<>();  // x, y, yaw of T_body_lidar by lidar channel
   private Patch grid;
@@ -137,7 +98,7 @@ final class PlanarWorld {
   }
 
   synchronized void addPose(String channel, Pose pose) {
-    if (pose.isFinite()) trails.computeIfAbsent(channel, c -> new Trail()).add(pose);
+    if (pose.isUsable()) trails.computeIfAbsent(channel, c -> new Trail<>()).add(pose.utime, pose);
   }
 
   synchronized void setMounting(String channel, rigid_transform_t m) {
@@ -160,7 +121,7 @@ final class PlanarWorld {
     }
     double size = side * m.meters_per_cell, half = 0.5 * m.meters_per_cell;
     tiles.put(((long) m.tile_x << 32) ^ (m.tile_y & 0xffffffffL),
-        new Patch(m.tile_x * size - half, m.tile_y * size - half, size, size, image, m.utime));
+        new Patch(m.tile_x * size - half, m.tile_y * size - half, size, size, image));
   }
 
   synchronized void setGrid(occupancy_grid_t m) {
@@ -169,16 +130,15 @@ final class PlanarWorld {
     for (int y = 0; y < m.height; ++y) {
       for (int x = 0; x < m.width; ++x) image.setRGB(x, m.height - 1 - y, Palette.occupancy(m.cells[y * m.width + x]));
     }
-    grid = new Patch(m.origin_x, m.origin_y, m.width * m.meters_per_cell, m.height * m.meters_per_cell, image, m.utime);
+    grid = new Patch(m.origin_x, m.origin_y, m.width * m.meters_per_cell, m.height * m.meters_per_cell, image);
   }
 
-  synchronized List<Patch> tiles() {
-    return new ArrayList<>(tiles.values());
-  }
-
-  /** Null before the first. */
-  synchronized Patch grid() {
-    return grid;
+  /** In the order of drawing. */
+  synchronized List<Patch> map() {
+    List<Patch> map = new ArrayList<>();
+    if (grid != null) map.add(grid);
+    map.addAll(tiles.values());
+    return map;
   }
 
   /** What is drawn of one pose channel. */
@@ -187,16 +147,16 @@ final class PlanarWorld {
     final Pose latest;
     final List<Pose> poses;
 
-    Way(String channel, Trail trail) {
+    Way(String channel, Trail<Pose> trail) {
       this.channel = channel;
-      latest = trail.latest;
-      poses = new ArrayList<>(trail.poses);
+      latest = trail.latest();
+      poses = trail.poses();
     }
   }
 
   synchronized List<Way> ways() {
     List<Way> ways = new ArrayList<>();
-    for (Map.Entry<String, Trail> e : trails.entrySet()) ways.add(new Way(e.getKey(), e.getValue()));
+    for (Map.Entry<String, Trail<Pose>> e : trails.entrySet()) ways.add(new Way(e.getKey(), e.getValue()));
     return ways;
   }
 
@@ -214,13 +174,5 @@ final class PlanarWorld {
   /** Zeros where nothing is known. */
   synchronized double[] mounting(String lidar) {
     return mountings.getOrDefault(lidar, new double[3]).clone();
-  }
-
-  synchronized void clear() {
-    tiles.clear();
-    trails.clear();
-    scans.clear();
-    grid = null;
-    newestTile = Long.MIN_VALUE;
   }
 }

@@ -11,12 +11,11 @@ import lcmslam.surfel_chunk_t;
 
 /** The latest sweeps, surfels and the way of the estimate, as the 3D view draws them. Bounded in memory. Any thread. */
 final class SpatialWorld {
-  private static final int MAX_TRAIL = 20_000;
   private static final String[] ESTIMATES = {"OCTO3D_POSE", "CLOUD3D_POSE"};
 
   private final Map<String, SweepCollector> sweeps = new TreeMap<>();
   private final Map<String, Pose3> mountings = new TreeMap<>();  // T_body_lidar by lidar channel
-  private final Map<String, List<Pose3>> ways = new TreeMap<>();
+  private final Map<String, Trail<Pose3>> ways = new TreeMap<>();
   private final SurfelStore surfels = new SurfelStore();
 
   /** Whether poses of this channel are drawn here. */
@@ -39,22 +38,21 @@ final class SpatialWorld {
 
   synchronized void addPose(String channel, pose_t m) {
     Pose3 pose = Pose3.of(m);
-    if (!isEstimate(channel) || !pose.isFinite()) return;
-    List<Pose3> way = ways.computeIfAbsent(channel, c -> new ArrayList<>());
-    if (!way.isEmpty() && pose.utime < way.get(way.size() - 1).utime) way.clear();  // a service that began again
-    way.add(pose);
-    if (way.size() > MAX_TRAIL) way.subList(0, MAX_TRAIL / 2).clear();
+    if (isEstimate(channel) && pose.isFinite()) ways.computeIfAbsent(channel, c -> new Trail<>()).add(pose.utime, pose);
   }
 
   /** What is drawn at one time. */
   static final class Scene {
-    /** T_map_body, oldest first; empty before the first. */
+    /** Whose way it is; "" before the first pose. */
+    final String channel;
+    /** T_map_body, oldest first. */
     final List<Pose3> way;
     /** Map frame, x, y, z by turns. */
     final float[] sweep;
     final List<SurfelStore.Surfel> surfels;
 
-    private Scene(List<Pose3> way, float[] sweep, List<SurfelStore.Surfel> surfels) {
+    private Scene(String channel, List<Pose3> way, float[] sweep, List<SurfelStore.Surfel> surfels) {
+      this.channel = channel;
       this.way = way;
       this.sweep = sweep;
       this.surfels = surfels;
@@ -66,11 +64,11 @@ final class SpatialWorld {
   }
 
   synchronized Scene scene() {
-    List<Pose3> way = new ArrayList<>();
     for (String channel : ESTIMATES) {
-      if (way.isEmpty()) way.addAll(ways.getOrDefault(channel, way));
+      Trail<Pose3> way = ways.get(channel);
+      if (way != null) return new Scene(channel, way.poses(), sweepAt(way.latest()), surfels.all());
     }
-    return new Scene(way, sweepAt(way.isEmpty() ? null : way.get(way.size() - 1)), surfels.all());
+    return new Scene("", new ArrayList<>(), sweepAt(null), surfels.all());
   }
 
   /** Of the first lidar, where the body was at its end. Null: the body's pose is unknown. */
