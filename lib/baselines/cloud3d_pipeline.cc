@@ -46,7 +46,7 @@ Result Pipeline::Process(const Sweep& sweep, const std::optional<Pose3>& T_befor
   clock.Finish(Stage::kIcp);
 
   const bool placed = result.status == Status::kInitializing || result.status == Status::kTracking;
-  if (placed && !options_.localise_only && MovedEnough()) {
+  if (placed && !options_.localize_only && MovedEnough()) {
     result.map_points_added = map_.Grow(Transformed(T_map_body_, cloud_body));
     T_map_body_grown_ = T_map_body_;
   }
@@ -74,7 +74,7 @@ Result Pipeline::Locate(const Cloud& cloud_body, const Pose3& T_map_body_guess) 
   Result result{.T_map_body = T_map_body_guess, .num_points = static_cast<int>(reading_body.size())};
   if (reading_body.size() < kMinPoints) return result;
   if (map_.size() == 0) {
-    result.status = options_.localise_only ? Status::kLost : Status::kInitializing;
+    result.status = options_.localize_only ? Status::kLost : Status::kInitializing;
     return result;
   }
   const IcpResult icp = Icp(map_, reading_body, T_map_body_guess, options_.icp);

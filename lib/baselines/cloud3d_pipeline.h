@@ -25,7 +25,7 @@ struct Options {
   double update_angle_rad = 0.3;   // ... or so much rotation
   double max_gap_s = 1.0;          // after a longer silence the old velocity is forgotten
   uint64_t seed = 1;               // of the random samples
-  bool localise_only = false;      // the map stays as it is
+  bool localize_only = false;      // the map stays as it is
 
   std::string Validate() const;  // "" or "field: reason"
 };
@@ -74,7 +74,7 @@ class Pipeline {
   void Reset();
   // Continues from there, at rest; the map stays.
   void SetPose(const Pose3& T_map_body);
-  void SetLocaliseOnly(bool localise_only) { options_.localise_only = localise_only; }
+  void SetLocalizeOnly(bool localize_only) { options_.localize_only = localize_only; }
 
   // A monotonic clock in milliseconds for Result::stage_ms; never influences anything else.
   void SetStopwatch(std::function<double()> now_ms) { now_ms_ = std::move(now_ms); }

@@ -72,7 +72,7 @@ struct Options {
   RegistrationOptions registration;
   CoarseSearchOptions search;
   TrustOptions trust;
-  bool localise_only = false;    // the map stays as it is
+  bool localize_only = false;    // the map stays as it is
   int max_points = 20000;        // of a sweep; more are thinned evenly: they add time, not accuracy
   int threads = 1;               // 2: another one takes a sweep into the map while the next is prepared
   std::string Validate() const;  // "" or "group.field: reason"

@@ -73,7 +73,7 @@ Result Pipeline::Process(const Sweep& dense_sweep, const MotionHint& hint) {
   const std::vector<Patch> patches = MakePatches(sweep, options_.patches, options_.map.range_noise_m);
   Charge(Stage::kCondense);
   AwaitInsertion();
-  if (map_.num_cells() == 0 && !options_.localise_only) return Start(sweep, patches);
+  if (map_.num_cells() == 0 && !options_.localize_only) return Start(sweep, patches);
 
   const TimedPatches timed{patches, FirstPointTime(sweep), BridgeTimeTo(sweep)};
   bool searched = false;
@@ -91,7 +91,7 @@ Result Pipeline::Process(const Sweep& dense_sweep, const MotionHint& hint) {
   result.patches = static_cast<int>(patches.size());
   result.searched = good && searched;
   result.began_anew = began_anew;
-  result.inserted = good && !options_.localise_only && Insert(sweep, registration.motion);
+  result.inserted = good && !options_.localize_only && Insert(sweep, registration.motion);
   Charge(Stage::kInsert);
   result.stage_ms = stage_ms_;
   return result;
@@ -151,7 +151,7 @@ RegistrationResult Pipeline::StartInMotion(const TimedPatches& patches, const Re
                                            const RegistrationResult& from_rest, bool& began_anew) {
   const Sweep first = *std::exchange(first_, std::nullopt);
   const double first_s = SweepDuration(first);
-  if (options_.localise_only || patches.duration_s >= options_.trust.max_gap_s ||
+  if (options_.localize_only || patches.duration_s >= options_.trust.max_gap_s ||
       MotionOfPoints(Corrected(belief_.mean, from_rest.motion), first_s) < kStartMotionM) {
     return from_rest;
   }

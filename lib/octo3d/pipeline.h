@@ -69,7 +69,7 @@ class Pipeline {
 
   void Reset();                           // empties the map, forgets the motion
   void SetPose(const Pose3& T_map_body);  // at rest there; keeps the map
-  void SetLocaliseOnly(bool localise_only) { options_.localise_only = localise_only; }
+  void SetLocalizeOnly(bool localize_only) { options_.localize_only = localize_only; }
   void SetMap(SurfelMap map);  // a loaded map; the next sweep is registered to it
 
   // A monotonic clock in milliseconds for Result::stage_ms; never influences anything else.

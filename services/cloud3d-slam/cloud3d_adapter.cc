@@ -35,7 +35,7 @@ class Cloud3dAdapter : public SpatialSlam {
 
   void Reset() override { pipeline_.Reset(); }
   void SetPose(const Pose3& T_map_lidar) override { pipeline_.SetPose(T_map_lidar); }
-  void SetLocalizeOnly(bool localize_only) override { pipeline_.SetLocaliseOnly(localize_only); }
+  void SetLocalizeOnly(bool localize_only) override { pipeline_.SetLocalizeOnly(localize_only); }
 
   std::string SaveMap(const std::string& stem) const override {
     std::ofstream file(stem + ".ply", std::ios::binary);

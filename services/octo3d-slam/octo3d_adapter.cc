@@ -79,7 +79,7 @@ class Octo3dAdapter : public SpatialSlam {
   }
 
   void SetPose(const Pose3& T_map_lidar) override { pipeline_.SetPose(T_map_lidar); }
-  void SetLocalizeOnly(bool localize_only) override { pipeline_.SetLocaliseOnly(localize_only); }
+  void SetLocalizeOnly(bool localize_only) override { pipeline_.SetLocalizeOnly(localize_only); }
 
   std::string SaveMap(const std::string& stem) const override {
     const octo3d::SurfelMap& map = pipeline_.map();

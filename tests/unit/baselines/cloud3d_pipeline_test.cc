@@ -131,7 +131,7 @@ TEST(Cloud3dPipeline, ResetForgetsAndLocalisingWritesNothing) {
   (void)pipeline.Process(episode.Frame(0).sweep);
   pipeline.Reset();
   EXPECT_EQ(pipeline.map().size(), 0U);
-  pipeline.SetLocaliseOnly(true);
+  pipeline.SetLocalizeOnly(true);
   EXPECT_EQ(pipeline.Process(episode.Frame(1).sweep).status, Status::kLost) << "no map";
   EXPECT_EQ(pipeline.map().size(), 0U);
 }

@@ -113,7 +113,7 @@ TEST(Pipeline, KeepsDoubtfulSweepsOutOfTheMap) {
   EXPECT_EQ(pipeline.Process(episode.Frame(6).sweep).status, SweepStatus::kTracking) << "found again";
 }
 
-TEST(Pipeline, LocalisesInALoadedMap) {
+TEST(Pipeline, LocalizesInALoadedMap) {
   const SpatialEpisode episode = Episode("hall10", 3.0);
   Pipeline mapper{Options{}};
   for (int i = 0; i < episode.num_frames(); ++i) (void)mapper.Process(episode.Frame(i).sweep);
@@ -121,17 +121,17 @@ TEST(Pipeline, LocalisesInALoadedMap) {
   WriteMap(mapper.map(), file);
 
   Options options;
-  options.localise_only = true;
-  Pipeline localiser(options);
+  options.localize_only = true;
+  Pipeline localizer(options);
   ReadMapResult loaded = ReadMap(file);
   ASSERT_TRUE(loaded.map) << loaded.error;
-  localiser.SetMap(std::move(*loaded.map));
+  localizer.SetMap(std::move(*loaded.map));
   const Pose3 T_world_body0 = episode.Frame(0).T_world_body;
   const SpatialFrame frame = episode.Frame(20);
   Pose3 guess = T_world_body0.inverse() * frame.T_world_body;
   guess.translation += Eigen::Vector3d(0.15, -0.1, 0.05);
-  localiser.SetPose(guess);
-  const Result result = localiser.Process(frame.sweep);
+  localizer.SetPose(guess);
+  const Result result = localizer.Process(frame.sweep);
   EXPECT_EQ(result.status, SweepStatus::kTracking);
   EXPECT_FALSE(result.inserted);
   EXPECT_LT((result.T_map_body.translation - (T_world_body0.inverse() * frame.T_world_body).translation).norm(), 0.05);

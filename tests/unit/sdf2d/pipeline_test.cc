@@ -226,7 +226,7 @@ TEST(Pipeline, LocalizesOnALoadedMapWithoutChangingIt) {
 
   localizer.Reset();
   EXPECT_TRUE(localizer.map().empty());
-  EXPECT_EQ(localizer.Process(frames[0].scan).status, Status::kLost) << "no map to localise on";
+  EXPECT_EQ(localizer.Process(frames[0].scan).status, Status::kLost) << "no map to localize on";
 }
 
 TEST(Pipeline, CorridorIsHeldByOdometry) {
