@@ -26,6 +26,7 @@ import javax.swing.SwingUtilities;
  * wheel NAME            three notches towards the picture
  * drag NAME             drags the left button across
  * close                 closes every window but the list
+ * await NAME            waits until there is a file NAME
  * </pre>
  */
 public final class SpyDriver {
@@ -69,6 +70,7 @@ public final class SpyDriver {
       case "open": open(table, words[1]); capture(words[2]); break;
       case "wheel": robot.mouseWheel(-3); capture(words[1]); break;
       case "drag": drag(); capture(words[1]); break;
+      case "await": while (!Files.exists(folder.resolve(words[1]))) Thread.sleep(50); break;
       case "close": close(SwingUtilities.getWindowAncestor(table)); break;
       default: throw new IllegalArgumentException(words[0]);
     }
@@ -85,7 +87,22 @@ public final class SpyDriver {
   }
 
   private void open(JTable table, String channel) throws Exception {
-    int row = await(channel, () -> rowOf(table, channel));
+    await(channel, () -> rowOf(table, channel));
+    view = null;
+    // A channel that comes up meanwhile moves the rows below it: then another one is hit.
+    for (long end = System.currentTimeMillis() + PATIENCE_MS; view == null && System.currentTimeMillis() < end;) {
+      doubleClick(table, rowOf(table, channel));
+      view = within(SETTLE_MS, () -> viewOf(channel));
+    }
+    if (view == null) throw new IllegalStateException("no view of " + channel);
+    view.toFront();
+    Thread.sleep(SETTLE_MS);
+    Point at = view.getLocationOnScreen();
+    robot.mouseMove(at.x + view.getWidth() / 2, at.y + view.getHeight() / 2);
+  }
+
+  private void doubleClick(JTable table, int row) {
+    SwingUtilities.getWindowAncestor(table).toFront();
     table.scrollRectToVisible(table.getCellRect(row, 0, true));
     robot.waitForIdle();
     Rectangle cell = table.getCellRect(row, 0, true);
@@ -95,17 +112,14 @@ public final class SpyDriver {
       robot.mousePress(InputEvent.BUTTON1_DOWN_MASK);
       robot.mouseRelease(InputEvent.BUTTON1_DOWN_MASK);
     }
-    // lcm-spy opens a window with the fields as well, which is titled with the channel alone.
-    view = await("a view of " + channel, () -> {
-      for (Frame frame : Frame.getFrames()) {
-        if (frame.isShowing() && frame.getTitle().endsWith(": " + channel)) return frame;
-      }
-      return null;
-    });
-    view.toFront();
-    Thread.sleep(SETTLE_MS);
-    Point at = view.getLocationOnScreen();
-    robot.mouseMove(at.x + view.getWidth() / 2, at.y + view.getHeight() / 2);
+  }
+
+  /** Null: there is none. lcm-spy opens a window with the fields as well, which is titled with the channel alone. */
+  private static Frame viewOf(String channel) {
+    for (Frame frame : Frame.getFrames()) {
+      if (frame.isShowing() && frame.getTitle().endsWith(": " + channel)) return frame;
+    }
+    return null;
   }
 
   private static void close(Component list) {
@@ -148,10 +162,17 @@ public final class SpyDriver {
   }
 
   private static <T> T await(String what, Supplier<T> supplier) throws InterruptedException {
-    for (long end = System.currentTimeMillis() + PATIENCE_MS; System.currentTimeMillis() < end; Thread.sleep(50)) {
+    T found = within(PATIENCE_MS, supplier);
+    if (found == null) throw new IllegalStateException(what + ": not there after " + PATIENCE_MS / 1000 + " s");
+    return found;
+  }
+
+  /** Null: it was not there in so many milliseconds. */
+  private static <T> T within(int millis, Supplier<T> supplier) throws InterruptedException {
+    for (long end = System.currentTimeMillis() + millis; System.currentTimeMillis() < end; Thread.sleep(50)) {
       T found = supplier.get();
       if (found != null) return found;
     }
-    throw new IllegalStateException(what + ": not there after " + PATIENCE_MS / 1000 + " s");
+    return null;
   }
 }

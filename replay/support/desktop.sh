@@ -20,20 +20,33 @@ open_desktop() {
   export DISPLAY
 }
 
-# Starts replay/spy, to be told what to do by do_in_spy.
+# open_spy NAME [BEFORE...]: starts replay/spy as process NAME, by the command BEFORE if there is one, to be told what to do by
+# do_in_spy. What it leaves is in the folder NAME/.
 open_spy() {
-  mkdir shots classes
-  javac -d classes "$root/replay/support/SpyDriver.java"
-  printf 'Premain-Class: SpyDriver\n' >manifest
-  jar cfm driver.jar manifest -C classes .
-  JAVA_TOOL_OPTIONS="-javaagent:$PWD/driver.jar=$PWD/shots" start spy spy.log "$root/replay/spy" --lcm-url "$lcm_url"
-  wait_until spy test -e shots/ready
+  local name=$1
+  shift
+  mkdir "$name"
+  [[ -e driver.jar ]] || make_driver
+  JAVA_TOOL_OPTIONS="-javaagent:$PWD/driver.jar=$PWD/$name" start "$name" "$name.log" "$@" "$root/replay/spy" --lcm-url "$lcm_url"
+  wait_until "$name" test -e "$name/ready"
 }
 
-# do_in_spy LINE...: see SpyDriver. Pictures are in shots/, and lcm-spy has ended afterwards.
+make_driver() {
+  mkdir driver
+  javac -d driver "$root/replay/support/SpyDriver.java"
+  printf 'Premain-Class: SpyDriver\n' >driver/manifest
+  jar cfm driver.jar driver/manifest -C driver .
+}
+
+# do_in_spy NAME LINE...: see SpyDriver. lcm-spy has ended afterwards.
 do_in_spy() {
-  printf '%s\n' "$@" >todo
-  mv todo shots/todo
-  finish spy
-  [[ -e shots/done ]]
+  tell_spy "$@"
+  finish "$1"
+  [[ -e $1/done ]]
+}
+
+# tell_spy NAME LINE...: the same without waiting for it.
+tell_spy() {
+  printf '%s\n' "${@:2}" >"$1.todo"
+  mv "$1.todo" "$1/todo"
 }

@@ -11,12 +11,12 @@ need_desktop
 main() {
   claim_bus
   open_desktop
-  open_spy
+  open_spy spy
   start_run octo3d-slam hall10_low 300
   wait_until sensor-bridge has_poses octo3d-slam 60
-  check "spy does as it is told" do_in_spy table "open OCTO3D_POSE pose" "wheel near" "drag turned" close \
+  check "spy does as it is told" do_in_spy spy table "open OCTO3D_POSE pose" "wheel near" "drag turned" close \
     "open LIDAR_3D sweep" close "open OCTO3D_MAP surfels" close
-  check_channels LIDAR_3D OCTO3D_POSE OCTO3D_DIAGNOSTICS OCTO3D_MAP OCTO3D_SLAM_STATUS
+  check_channels spy LIDAR_3D OCTO3D_POSE OCTO3D_DIAGNOSTICS OCTO3D_MAP OCTO3D_SLAM_STATUS
   check_space
   finish_test
 }
@@ -24,14 +24,14 @@ main() {
 check_space() {
   local name
   for name in pose sweep surfels; do
-    check "$name: sweep" at_least "$(pixels count shots/$name.png "$(color SCAN)")" 2000
-    check "$name: way of the estimate" at_least "$(pixels count shots/$name.png 0072b2)" 40
-    check "$name: background around the hall" at_least "$(pixels count shots/$name.png "$(color BACKGROUND)")" 20000
-    check "$name: surfels of the floor" at_least "$(pixels count shots/$name.png 96a9c6)" 5000
-    check "$name: the sweep lies on surfels" at_least "$(pixels near shots/$name.png "$(color SCAN)" 96a9c6 10)" 30
+    check "$name: sweep" at_least "$(pixels count spy/$name.png "$(color SCAN)")" 2000
+    check "$name: way of the estimate" at_least "$(pixels count spy/$name.png 0072b2)" 40
+    check "$name: background around the hall" at_least "$(pixels count spy/$name.png "$(color BACKGROUND)")" 20000
+    check "$name: surfels of the floor" at_least "$(pixels count spy/$name.png 96a9c6)" 5000
+    check "$name: the sweep lies on surfels" at_least "$(pixels near spy/$name.png "$(color SCAN)" 96a9c6 10)" 30
   done
-  check "the wheel zooms" at_least "$(pixels differ shots/pose.png shots/near.png)" 50000
-  check "dragging turns" at_least "$(pixels differ shots/near.png shots/turned.png)" 50000
+  check "the wheel zooms" at_least "$(pixels differ spy/pose.png spy/near.png)" 50000
+  check "dragging turns" at_least "$(pixels differ spy/near.png spy/turned.png)" 50000
 }
 
 main "$@"

@@ -8,19 +8,19 @@ need_desktop() {
   [[ -z $lacking ]] || { echo "SKIPPED: no $lacking" && exit 77; }
 }
 
-# check_channels CHANNEL...: all were listed, and every message of every channel was decoded.
+# check_channels SPY CHANNEL...: it listed all, and decoded every message of every channel.
 check_channels() {
-  local channel
-  for channel in "$@"; do check "$channel is listed" grep -P "^$channel\t" shots/channels.tsv; done
+  local list=$1/channels.tsv channel
+  for channel in "${@:2}"; do check "$1: $channel is listed" grep -P "^$channel\t" "$list"; done
   # LCM_SELF_TEST is text that LCM sends to itself.
   # shellcheck disable=SC2016  # for awk to expand
-  check "all are decoded" awk -F '\t' '{ print } $1 != "LCM_SELF_TEST" && $NF != 0 { bad = 1 } END { exit bad }' shots/channels.tsv
+  check "$1: all are decoded" awk -F '\t' '{ print } $1 != "LCM_SELF_TEST" && $NF != 0 { bad = 1 } END { exit bad }' "$list"
 }
 
 # pixels ...: see Pixels.
 pixels() {
-  [[ -e classes/Pixels.class ]] || javac -d classes "$root/tests/support/Pixels.java"
-  java -cp classes Pixels "$@"
+  [[ -e pixels/Pixels.class ]] || javac -d pixels "$root/tests/support/Pixels.java"
+  java -cp pixels Pixels "$@"
 }
 
 # color NAME: of the views.

@@ -13,7 +13,9 @@ final class ErrorHistory {
   evaluation_t latest;
   private long start;
 
+  /** Errors that are no numbers cannot be drawn, and are passed over. */
   void add(evaluation_t m) {
+    if (!PlanarWorld.areUsable(m.ate_mean, m.latest_error)) return;
     if (latest == null || m.utime < latest.utime) {  // the evaluator began again
       points.clear();
       start = m.utime;

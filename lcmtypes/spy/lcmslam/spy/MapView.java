@@ -16,7 +16,6 @@ import java.awt.geom.Path2D;
 import java.awt.geom.Point2D;
 import java.awt.geom.Rectangle2D;
 import java.util.List;
-import java.util.Map;
 import javax.swing.JPanel;
 import javax.swing.SwingUtilities;
 
@@ -92,9 +91,10 @@ final class MapView extends JPanel {
     g.translate(-centerX, -centerY);
     for (PlanarWorld.Patch patch : map) draw(g, patch);
     drawWays(g, ways, estimate);
-    if (estimate != null) drawScans(g, estimate.latest);
+    Scan scan = estimate == null ? null : world.scanAt(estimate.latest.utime);
+    if (scan != null) drawScan(g, scan, estimate.latest);
     g.setTransform(screen);
-    drawOverlay(g, ways, estimate);
+    drawOverlay(g, ways, estimate, scan != null);
     g.dispose();
   }
 
@@ -114,20 +114,20 @@ final class MapView extends JPanel {
   }
 
   private void aim(List<PlanarWorld.Patch> map, List<PlanarWorld.Way> ways, PlanarWorld.Way estimate) {
-    if (mode == Mode.WHOLE) showAll(boundsOf(map, ways));
+    if (mode == Mode.WHOLE) showAll(boundsOf(map, ways, estimate));
     if (mode != Mode.FOLLOWING || estimate == null) return;
     centerX = estimate.latest.x;
     centerY = estimate.latest.y;
   }
 
-  /** Ground truth does not count, for it is moved onto the estimate. */
-  private static Rectangle2D boundsOf(List<PlanarWorld.Patch> map, List<PlanarWorld.Way> ways) {
+  /** Of the map and the estimate; without these of what else there is. */
+  private static Rectangle2D boundsOf(List<PlanarWorld.Patch> map, List<PlanarWorld.Way> ways, PlanarWorld.Way estimate) {
     Path2D all = new Path2D.Double();
     for (PlanarWorld.Patch patch : map) {
       if (!patch.known.isEmpty()) all.append(patch.known, false);
     }
     for (PlanarWorld.Way way : ways) {
-      if (!isGroundTruth(way.channel)) all.append(pathOf(way), false);
+      if (way == estimate || estimate == null) all.append(pathOf(way), false);
     }
     return all.getBounds2D();
   }
@@ -178,33 +178,29 @@ final class MapView extends JPanel {
     g.setTransform(map);
   }
 
-  private void drawScans(Graphics2D g, PlanarWorld.Pose body) {
+  private void drawScan(Graphics2D g, Scan scan, PlanarWorld.Pose body) {
     double dot = 3 / scale;
+    double[] mounting = world.mounting();
+    AffineTransform toMap = AffineTransform.getTranslateInstance(body.x, body.y);
+    toMap.rotate(body.yaw);
+    toMap.translate(mounting[0], mounting[1]);
+    toMap.rotate(mounting[2]);
     g.setColor(Palette.SCAN);
-    for (Map.Entry<String, Scan> e : world.scansAt(body.utime).entrySet()) {
-      if (e.getKey().startsWith("LIDAR_2D_")) continue;  // a further lidar, which the estimate does not use
-      double[] mounting = world.mounting(e.getKey());
-      AffineTransform toMap = AffineTransform.getTranslateInstance(body.x, body.y);
-      toMap.rotate(body.yaw);
-      toMap.translate(mounting[0], mounting[1]);
-      toMap.rotate(mounting[2]);
-      Point2D p = new Point2D.Double();
-      Scan scan = e.getValue();
-      for (int i = 0; i < scan.x.length; ++i) {
-        toMap.transform(new Point2D.Double(scan.x[i], scan.y[i]), p);
-        g.fill(new Ellipse2D.Double(p.getX() - dot / 2, p.getY() - dot / 2, dot, dot));
-      }
+    Point2D p = new Point2D.Double();
+    for (int i = 0; i < scan.x.length; ++i) {
+      toMap.transform(new Point2D.Double(scan.x[i], scan.y[i]), p);
+      g.fill(new Ellipse2D.Double(p.getX() - dot / 2, p.getY() - dot / 2, dot, dot));
     }
   }
 
-  private void drawOverlay(Graphics2D g, List<PlanarWorld.Way> ways, PlanarWorld.Way estimate) {
+  private void drawOverlay(Graphics2D g, List<PlanarWorld.Way> ways, PlanarWorld.Way estimate, boolean hasScan) {
     Overlay overlay = new Overlay(g, getWidth(), getHeight());
     for (PlanarWorld.Way way : ways) {
       PlanarWorld.Pose at = way.latest;
       String moved = isGroundTruth(way.channel) && estimate != null ? "  (laid over the estimate)" : "";
       overlay.add(colorOf(ways, way, estimate), String.format("%s  %.3f, %.3f m  %.1f\u00b0%s", way.channel, at.x, at.y, Math.toDegrees(at.yaw), moved));
     }
-    if (estimate != null && !world.scansAt(estimate.latest.utime).isEmpty()) overlay.add(Palette.SCAN, "scan");
+    if (hasScan) overlay.add(Palette.SCAN, "scan");
     overlay.drawLegend();
     overlay.drawScaleBar(scale);
     if (mode == Mode.FREE) overlay.drawHint("double click: follow   right click: show all");

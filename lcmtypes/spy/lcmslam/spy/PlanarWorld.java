@@ -20,7 +20,6 @@ import lcmslam.sdf_tile_t;
 final class PlanarWorld {
   /** T_map_body in the plane. */
   static final class Pose {
-    private static final double MAX_COORDINATE = 1e6;  // m, rad
     final long utime;
     final double x, y, yaw;
 
@@ -43,10 +42,17 @@ final class PlanarWorld {
       return Math.atan2(2 * (q[0] * q[3] + q[1] * q[2]), 1 - 2 * (q[2] * q[2] + q[3] * q[3]));
     }
 
-    /** Whether it can be drawn: NaN and places that no robot goes to cannot. */
     boolean isUsable() {
-      return Math.abs(x) < MAX_COORDINATE && Math.abs(y) < MAX_COORDINATE && Math.abs(yaw) < MAX_COORDINATE;
+      return areUsable(x, y, yaw);
     }
+  }
+
+  /** Whether these, in m or rad, can be drawn: NaN and places that no robot goes to cannot. */
+  static boolean areUsable(double... coordinates) {
+    for (double c : coordinates) {
+      if (!(Math.abs(c) < MAX_COORDINATE)) return false;
+    }
+    return true;
   }
 
   /** A picture of a part of the map; row 0 of the picture is its top. */
@@ -83,7 +89,9 @@ final class PlanarWorld {
     }
   }
 
-  private static final int MAX_TILES = 20000, MAX_SCANS = 8;
+  private static final double MAX_COORDINATE = 1e6;
+  private static final String MAIN_LIDAR = "LIDAR_2D";
+  private static final int MAX_TILES = 10_000, MAX_SCANS = 8;
   private final Map<Long, Patch> tiles = new HashMap<>();
   private final Map<String, Trail<Pose>> trails = new TreeMap<>();
   private final Map<String, Deque<Scan>> scans = new TreeMap<>();  // newest last
@@ -108,7 +116,8 @@ final class PlanarWorld {
 
   synchronized void setTile(sdf_tile_t m) {
     int side = m.cells_per_side;
-    if (side < 1 || m.num_cells != side * side) return;
+    double size = side * m.meters_per_cell, half = 0.5 * m.meters_per_cell;
+    if (side < 1 || m.num_cells != side * side || !(size > 0) || !areUsable(m.tile_x * size, m.tile_y * size, size)) return;
     if (m.utime < newestTile || tiles.size() >= MAX_TILES) tiles.clear();  // the service began a new map
     newestTile = m.utime;
     BufferedImage image = new BufferedImage(side, side, BufferedImage.TYPE_INT_ARGB);
@@ -119,18 +128,19 @@ final class PlanarWorld {
         image.setRGB(x, side - 1 - y, m.weight[i] == 0 ? 0 : Palette.distance(cells));
       }
     }
-    double size = side * m.meters_per_cell, half = 0.5 * m.meters_per_cell;
     tiles.put(((long) m.tile_x << 32) ^ (m.tile_y & 0xffffffffL),
         new Patch(m.tile_x * size - half, m.tile_y * size - half, size, size, image));
   }
 
   synchronized void setGrid(occupancy_grid_t m) {
     if (m.width < 1 || m.height < 1 || (long) m.width * m.height != m.num_cells) return;
+    double width = m.width * m.meters_per_cell, height = m.height * m.meters_per_cell;
+    if (!(width > 0) || !areUsable(m.origin_x, m.origin_y, width, height)) return;
     BufferedImage image = new BufferedImage(m.width, m.height, BufferedImage.TYPE_INT_ARGB);
     for (int y = 0; y < m.height; ++y) {
       for (int x = 0; x < m.width; ++x) image.setRGB(x, m.height - 1 - y, Palette.occupancy(m.cells[y * m.width + x]));
     }
-    grid = new Patch(m.origin_x, m.origin_y, m.width * m.meters_per_cell, m.height * m.meters_per_cell, image);
+    grid = new Patch(m.origin_x, m.origin_y, width, height, image);
   }
 
   /** In the order of drawing. */
@@ -160,19 +170,25 @@ final class PlanarWorld {
     return ways;
   }
 
-  /** By channel the newest scan that the pose of this time can stem from: a scan comes before its pose. */
-  synchronized Map<String, Scan> scansAt(long utime) {
-    Map<String, Scan> at = new TreeMap<>();
-    for (Map.Entry<String, Deque<Scan>> e : scans.entrySet()) {
-      for (Scan scan : e.getValue()) {
-        if (scan.utime <= utime || !at.containsKey(e.getKey())) at.put(e.getKey(), scan);
-      }
+  /** The scan that the pose of this time stems from, as far as known; null before the first. */
+  synchronized Scan scanAt(long utime) {
+    Scan newest = null;
+    for (Scan scan : scans.getOrDefault(lidar(), new ArrayDeque<>())) {
+      if (newest == null || scan.utime <= utime) newest = scan;  // a scan comes before its pose
     }
-    return at;
+    return newest;
   }
 
-  /** Zeros where nothing is known. */
-  synchronized double[] mounting(String lidar) {
-    return mountings.getOrDefault(lidar, new double[3]).clone();
+  /** Whose scans the estimate uses: channels LIDAR_2D_... are further lidars. */
+  private String lidar() {
+    for (String channel : scans.keySet()) {
+      if (!scans.containsKey(MAIN_LIDAR) && !channel.startsWith(MAIN_LIDAR)) return channel;
+    }
+    return MAIN_LIDAR;
+  }
+
+  /** Of that lidar, T_body_lidar: x, y, yaw. Zeros where nothing is known. */
+  synchronized double[] mounting() {
+    return mountings.getOrDefault(lidar(), new double[3]).clone();
   }
 }

@@ -34,10 +34,8 @@ final class Pose3 {
     return new Pose3(m.utime, m.trans, m.quat);
   }
 
-  boolean isFinite() {
-    double sum = x + y + z;
-    for (double value : r) sum += value;
-    return !Double.isNaN(sum) && !Double.isInfinite(sum);
+  boolean isUsable() {
+    return PlanarWorld.areUsable(x, y, z) && PlanarWorld.areUsable(r);
   }
 
   /** Points x, y, z by turns, moved out of this frame. */

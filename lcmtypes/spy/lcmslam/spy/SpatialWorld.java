@@ -11,6 +11,7 @@ import lcmslam.surfel_chunk_t;
 
 /** The latest sweeps, surfels and the way of the estimate, as the 3D view draws them. Bounded in memory. Any thread. */
 final class SpatialWorld {
+  private static final String MAIN_LIDAR = "LIDAR_3D";
   private static final String[] ESTIMATES = {"OCTO3D_POSE", "CLOUD3D_POSE"};
 
   private final Map<String, SweepCollector> sweeps = new TreeMap<>();
@@ -33,12 +34,12 @@ final class SpatialWorld {
 
   synchronized void setMounting(String channel, rigid_transform_t m) {
     Pose3 mounting = Pose3.of(m);
-    if (mounting.isFinite()) mountings.put(channel.replaceAll("_EXTRINSICS$", ""), mounting);
+    if (mounting.isUsable()) mountings.put(channel.replaceAll("_EXTRINSICS$", ""), mounting);
   }
 
   synchronized void addPose(String channel, pose_t m) {
     Pose3 pose = Pose3.of(m);
-    if (isEstimate(channel) && pose.isFinite()) ways.computeIfAbsent(channel, c -> new Trail<>()).add(pose.utime, pose);
+    if (isEstimate(channel) && pose.isUsable()) ways.computeIfAbsent(channel, c -> new Trail<>()).add(pose.utime, pose);
   }
 
   /** What is drawn at one time. */
@@ -71,13 +72,12 @@ final class SpatialWorld {
     return new Scene("", new ArrayList<>(), sweepAt(null), surfels.all());
   }
 
-  /** Of the first lidar, where the body was at its end. Null: the body's pose is unknown. */
+  /** Where the body was at its end. Null: the body's pose is unknown. */
   private float[] sweepAt(Pose3 body) {
-    for (Map.Entry<String, SweepCollector> e : sweeps.entrySet()) {
-      float[] points = e.getValue().at(body == null ? Long.MAX_VALUE : body.utime).points();
-      points = mountings.getOrDefault(e.getKey(), Pose3.identity()).apply(points);
-      return body == null ? points : body.apply(points);
-    }
-    return new float[0];
+    if (sweeps.isEmpty()) return new float[0];
+    String lidar = sweeps.containsKey(MAIN_LIDAR) ? MAIN_LIDAR : sweeps.keySet().iterator().next();
+    float[] points = sweeps.get(lidar).at(body == null ? Long.MAX_VALUE : body.utime).points();
+    points = mountings.getOrDefault(lidar, Pose3.identity()).apply(points);
+    return body == null ? points : body.apply(points);
   }
 }

@@ -79,6 +79,7 @@ final class SurfelStore {
   void add(surfel_chunk_t m) {
     if (m.epoch != epoch) clear();
     epoch = m.epoch;
+    if (sizes.size() >= MAX_SIZES) clear();  // no map has as many; what is real comes again
     Map<Cell, Surfel> changed = new LinkedHashMap<>();
     for (int i = 0; i < m.num_surfels; ++i) {
       Surfel surfel = new Surfel(m, i);
