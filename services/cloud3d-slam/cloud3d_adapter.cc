@@ -1,9 +1,8 @@
-#include "cloud3d-slam/cloud3d_adapter.h"
-
 #include <fstream>
 
 #include <lcmslam/slam_diagnostics_t.hpp>
 
+#include "cloud3d-slam/cloud3d_slam.h"
 #include "common/diagnostics.h"
 
 namespace lcmslam {
@@ -51,8 +50,8 @@ class Cloud3dAdapter : public SpatialSlam {
 
 }  // namespace
 
-std::unique_ptr<SpatialSlam> MakeCloud3dAdapter(const cloud3d::Options& options) {
-  return std::make_unique<Cloud3dAdapter>(options);
+std::unique_ptr<SpatialSlam> MakeAdapter(const Cloud3dSlamOptions& options) {
+  return std::make_unique<Cloud3dAdapter>(options.slam);
 }
 
 }  // namespace lcmslam

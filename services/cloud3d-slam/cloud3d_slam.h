@@ -1,6 +1,9 @@
 #pragma once
 
+#include <memory>
+
 #include "baselines/cloud3d_pipeline.h"
+#include "common/configured_slam.h"
 #include "common/spatial_slam_service.h"
 
 namespace lcmslam {
@@ -10,19 +13,14 @@ class Cloud3dSlam;
 }
 
 struct Cloud3dSlamOptions {
+  static constexpr const char* kName = "cloud3d-slam";
   SpatialSlamOptions service;
   cloud3d::Options slam;
 };
+void BindOptions(config::Cloud3dSlam& config, Cloud3dSlamOptions& options);
+std::unique_ptr<SpatialSlam> MakeAdapter(const Cloud3dSlamOptions& options);
 
 // The libpointmatcher-type baseline on the bus.
-class Cloud3dSlam : public SpatialSlamService {
- public:
-  using Options = Cloud3dSlamOptions;
-  using Config = config::Cloud3dSlam;
-  static constexpr const char* kName = "cloud3d-slam";
-  static Options Complete(Config& config);
-
-  Cloud3dSlam(const Options& options, const Config& config, ServiceContext& context);
-};
+using Cloud3dSlam = ConfiguredSlam<SpatialSlamService, config::Cloud3dSlam, Cloud3dSlamOptions>;
 
 }  // namespace lcmslam

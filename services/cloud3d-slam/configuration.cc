@@ -1,5 +1,3 @@
-#include "cloud3d-slam/configuration.h"
-
 #include "cloud3d-slam/cloud3d_slam.h"
 #include "cloud3d-slam/cloud3d_slam.pb.h"
 #include "common/slam_config.h"
@@ -27,16 +25,10 @@ void BindMap(ConfigBinder bind, cloud3d::Options& slam) {
 }  // namespace
 
 void BindOptions(config::Cloud3dSlam& config, Cloud3dSlamOptions& options) {
-  options.service.pose_channel = "CLOUD3D_POSE";
-  options.service.diagnostics_channel = "CLOUD3D_DIAGNOSTICS";
-  options.service.mounting_configured = config.has_mounting();
   cloud3d::Options& slam = options.slam;
   ConfigBinder bind(config);
-  BindSharedChannels(bind.Sub("channels"), options.service);
-  if (config.has_mounting()) BindPose(bind.Sub("mounting"), options.service.T_body_lidar);
-  BindPose(bind.Sub("initial_pose"), options.service.T_map_body_initial);
-  bind("localize_only", options.service.localize_only)("reading_ratio", slam.reading_ratio);
-  bind("max_gap_s", slam.max_gap_s)("seed", slam.seed);
+  BindShell(bind, "CLOUD3D", options.service);
+  bind("reading_ratio", slam.reading_ratio)("max_gap_s", slam.max_gap_s)("seed", slam.seed);
   BindFilter(bind.Sub("filter"), slam.filter);
   BindIcp(bind.Sub("icp"), slam.icp);
   BindMap(bind.Sub("map"), slam);

@@ -145,6 +145,8 @@ ConfigBinder ConfigBinder::Sub(const char* name) {
   return ConfigBinder(*message, path_ + name + ".");
 }
 
+bool ConfigBinder::Has(const char* name) const { return config_.GetReflection()->HasField(config_, Field(name)); }
+
 void RequireValid(const std::string& reason) {
   if (!reason.empty()) Fail(reason);
 }

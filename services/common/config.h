@@ -58,6 +58,8 @@ class ConfigBinder {
   }
 
   ConfigBinder Sub(const char* field);
+  // Whether the configuration says something of it.
+  bool Has(const char* field) const;
 
  private:
   const google::protobuf::FieldDescriptor* Field(const char* name) const;

@@ -48,7 +48,7 @@ void WriteEffectiveConfig(const std::filesystem::path& out, const std::string& n
 // Live or log to log, as the options say; writes the effective configuration, prints the summary.
 ExitCode RunOnBus(const RunOptions& options, const ServiceParts& parts);
 
-// The whole main of a service. S is a Service with
+// The whole main of a service. S is a Service (SLAM systems: see ConfiguredSlam) with
 //   using Options = ...;  using Config = a Protocol Buffers message;
 //   static constexpr const char* kName;
 //   static Options Complete(Config&);             // binds, validates; throws CommandError

@@ -7,21 +7,34 @@
 #include "common/spatial_slam_service.h"
 
 namespace lcmslam {
+namespace {
 
-void BindSharedChannels(ConfigBinder channels, SlamServiceOptions& options) {
+template <class Pose>
+void BindShared(ConfigBinder bind, const std::string& name, SlamServiceOptions& options, Pose& T_body_lidar,
+                Pose& T_map_body_initial) {
+  options.pose_channel = name + "_POSE";
+  options.diagnostics_channel = name + "_DIAGNOSTICS";
+  ConfigBinder channels = bind.Sub("channels");
   channels("lidar", options.lidar_channel)("odometry", options.odometry_channel)("command", options.command_channel);
   channels("pose", options.pose_channel)("diagnostics", options.diagnostics_channel);
+  options.mounting_configured = bind.Has("mounting");
+  if (options.mounting_configured) BindPose(bind.Sub("mounting"), T_body_lidar);
+  BindPose(bind.Sub("initial_pose"), T_map_body_initial);
 }
 
-void BindChannels(ConfigBinder channels, PlanarSlamOptions& options) {
-  BindSharedChannels(channels, options);
+}  // namespace
+
+void BindShell(ConfigBinder bind, const std::string& name, PlanarSlamOptions& options, Pose2& T_body_lidar,
+               Pose2& T_map_body_initial) {
+  BindShared(bind, name, options, T_body_lidar, T_map_body_initial);
+  ConfigBinder channels = bind.Sub("channels");
   channels("grid", options.grid_channel);
   channels("grid_period_s", options.grid_period_s)("max_grid_cells", options.max_grid_cells);
 }
 
-void BindChannels(ConfigBinder channels, SpatialSlamOptions& options) {
-  BindSharedChannels(channels, options);
-  channels("imu", options.imu_channel);
+void BindShell(ConfigBinder bind, const std::string& name, SpatialSlamOptions& options) {
+  BindShared(bind, name, options, options.T_body_lidar, options.T_map_body_initial);
+  bind("localize_only", options.localize_only);
 }
 
 void BindPose(ConfigBinder bind, Pose2& pose) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "common/config.h"
 #include "geometry/pose2.h"
 #include "geometry/pose3.h"
@@ -7,17 +9,13 @@
 namespace lcmslam {
 
 struct PlanarSlamOptions;
-struct SlamServiceOptions;
 struct SpatialSlamOptions;
 
-// The parts of a configuration that the shells of SLAM services need.
-
-// lidar, odometry, command, pose, diagnostics.
-void BindSharedChannels(ConfigBinder channels, SlamServiceOptions& options);
-// lidar, odometry, command, pose, diagnostics, grid, grid_period_s, max_grid_cells.
-void BindChannels(ConfigBinder channels, PlanarSlamOptions& options);
-// lidar, odometry, imu, command, pose, diagnostics.
-void BindChannels(ConfigBinder channels, SpatialSlamOptions& options);
+// The parts of a configuration that all SLAM services have: channels (by default NAME_POSE and NAME_DIAGNOSTICS),
+// mounting where it is set, initial_pose; spatial ones localize_only, too.
+void BindShell(ConfigBinder bind, const std::string& name, PlanarSlamOptions& options, Pose2& T_body_lidar,
+               Pose2& T_map_body_initial);
+void BindShell(ConfigBinder bind, const std::string& name, SpatialSlamOptions& options);
 
 // x_m, y_m, yaw_rad.
 void BindPose(ConfigBinder bind, Pose2& pose);

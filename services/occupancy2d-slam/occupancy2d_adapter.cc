@@ -1,8 +1,7 @@
-#include "occupancy2d-slam/occupancy2d_adapter.h"
-
 #include <lcmslam/slam_diagnostics_t.hpp>
 
 #include "common/diagnostics.h"
+#include "occupancy2d-slam/occupancy2d_slam.h"
 
 namespace lcmslam {
 namespace {
@@ -49,8 +48,8 @@ class Occupancy2dAdapter : public PlanarSlam {
 
 }  // namespace
 
-std::unique_ptr<PlanarSlam> MakeOccupancy2dAdapter(const occupancy2d::Options& options) {
-  return std::make_unique<Occupancy2dAdapter>(options);
+std::unique_ptr<PlanarSlam> MakeAdapter(const Occupancy2dSlamOptions& options) {
+  return std::make_unique<Occupancy2dAdapter>(options.slam);
 }
 
 }  // namespace lcmslam

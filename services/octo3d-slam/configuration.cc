@@ -1,5 +1,3 @@
-#include "octo3d-slam/configuration.h"
-
 #include "common/slam_config.h"
 #include "octo3d-slam/octo3d_slam.h"
 #include "octo3d-slam/octo3d_slam.pb.h"
@@ -44,18 +42,11 @@ void BindTrust(ConfigBinder bind, octo3d::TrustOptions& trust) {
 }  // namespace
 
 void BindOptions(config::Octo3dSlam& config, Octo3dSlamOptions& options) {
-  options.service.pose_channel = "OCTO3D_POSE";
-  options.service.diagnostics_channel = "OCTO3D_DIAGNOSTICS";
-  options.service.mounting_configured = config.has_mounting();
   octo3d::Options& slam = options.slam;
   ConfigBinder bind(config);
-  ConfigBinder channels = bind.Sub("channels");
-  BindChannels(channels, options.service);
-  channels("map", options.map_channel);
-  if (config.has_mounting()) BindPose(bind.Sub("mounting"), options.service.T_body_lidar);
-  BindPose(bind.Sub("initial_pose"), options.service.T_map_body_initial);
-  bind("localize_only", options.service.localize_only)("load_map", options.service.load_map);
-  bind("threads", slam.threads)("max_points", slam.max_points);
+  BindShell(bind, "OCTO3D", options.service);
+  bind.Sub("channels")("imu", options.service.imu_channel)("map", options.map_channel);
+  bind("load_map", options.service.load_map)("threads", slam.threads)("max_points", slam.max_points);
   BindMap(bind.Sub("map"), slam.map);
   BindPatches(bind.Sub("patches"), slam.patches);
   BindRegistration(bind.Sub("registration"), slam.registration);
@@ -63,6 +54,7 @@ void BindOptions(config::Octo3dSlam& config, Octo3dSlamOptions& options) {
   BindTrust(bind.Sub("trust"), slam.trust);
   ConfigBinder occupancy = bind.Sub("occupancy");
   occupancy("free_space", options.occupancy.free_space)("max_ray_m", options.occupancy.max_ray_m);
+  RequireValid(options.occupancy.Validate());
 }
 
 }  // namespace lcmslam

@@ -1,5 +1,3 @@
-#include "octo3d-slam/octo3d_adapter.h"
-
 #include <fstream>
 #include <functional>
 
@@ -115,7 +113,7 @@ class Octo3dAdapter : public SpatialSlam {
 
 }  // namespace
 
-std::unique_ptr<SpatialSlam> MakeOcto3dAdapter(const Octo3dSlamOptions& options) {
+std::unique_ptr<SpatialSlam> MakeAdapter(const Octo3dSlamOptions& options) {
   return std::make_unique<Octo3dAdapter>(options);
 }
 

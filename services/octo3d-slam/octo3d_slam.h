@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "common/configured_slam.h"
 #include "common/spatial_slam_service.h"
 #include "octo3d/occupancy_export.h"
 #include "octo3d/options.h"
@@ -13,21 +15,16 @@ class Octo3dSlam;
 }
 
 struct Octo3dSlamOptions {
+  static constexpr const char* kName = "octo3d-slam";
   SpatialSlamOptions service;
   std::string map_channel = "OCTO3D_MAP";  // "": no surfels
   octo3d::Options slam;
   octo3d::OccupancyExportOptions occupancy;
 };
+void BindOptions(config::Octo3dSlam& config, Octo3dSlamOptions& options);
+std::unique_ptr<SpatialSlam> MakeAdapter(const Octo3dSlamOptions& options);
 
 // NOctoSLAM on the bus.
-class Octo3dSlam : public SpatialSlamService {
- public:
-  using Options = Octo3dSlamOptions;
-  using Config = config::Octo3dSlam;
-  static constexpr const char* kName = "octo3d-slam";
-  static Options Complete(Config& config);
-
-  Octo3dSlam(const Options& options, const Config& config, ServiceContext& context);
-};
+using Octo3dSlam = ConfiguredSlam<SpatialSlamService, config::Octo3dSlam, Octo3dSlamOptions>;
 
 }  // namespace lcmslam

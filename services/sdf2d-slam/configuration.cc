@@ -1,5 +1,3 @@
-#include "sdf2d-slam/configuration.h"
-
 #include "common/slam_config.h"
 #include "sdf2d-slam/sdf2d_slam.h"
 #include "sdf2d-slam/sdf2d_slam.pb.h"
@@ -55,16 +53,10 @@ void BindRecovery(ConfigBinder bind, sdf2d::RecoveryOptions& recovery) {
 }  // namespace
 
 void BindOptions(config::Sdf2dSlam& config, Sdf2dSlamOptions& options) {
-  options.service.pose_channel = "SDF2D_POSE";
-  options.service.diagnostics_channel = "SDF2D_DIAGNOSTICS";
-  options.service.mounting_configured = config.has_mounting();
   sdf2d::Options& slam = options.slam;
   ConfigBinder bind(config);
-  ConfigBinder channels = bind.Sub("channels");
-  BindChannels(channels, options.service);
-  channels("map", options.map_channel);
-  if (config.has_mounting()) BindPose(bind.Sub("mounting"), slam.T_body_lidar);
-  BindPose(bind.Sub("initial_pose"), slam.T_map_body_initial);
+  BindShell(bind, "SDF2D", options.service, slam.T_body_lidar, slam.T_map_body_initial);
+  bind.Sub("channels")("map", options.map_channel);
   bind("cell_m", slam.cell_m)("min_range_m", slam.min_range_m)("max_range_m", slam.max_range_m);
   bind("deskew", slam.deskew)("localize_only", slam.localize_only)("load_map", options.load_map);
   BindNoise(bind.Sub("noise"), slam.noise);

@@ -1,5 +1,3 @@
-#include "sdf2d-slam/sdf2d_adapter.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -114,7 +112,7 @@ class Sdf2dAdapter : public PlanarSlam {
 
 }  // namespace
 
-std::unique_ptr<PlanarSlam> MakeSdf2dAdapter(const Sdf2dSlamOptions& options) {
+std::unique_ptr<PlanarSlam> MakeAdapter(const Sdf2dSlamOptions& options) {
   return std::make_unique<Sdf2dAdapter>(options);
 }
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <memory>
+#include <string>
+
+#include "common/configured_slam.h"
 #include "common/planar_slam_service.h"
 #include "sdf2d/options.h"
 
@@ -10,21 +14,17 @@ class Sdf2dSlam;
 }
 
 struct Sdf2dSlamOptions {
+  static constexpr const char* kName = "sdf2d-slam";
   PlanarSlamOptions service;
   std::string map_channel = "SDF2D_MAP";  // "": no tiles
   std::string load_map;                   // "": start with an empty map
   sdf2d::Options slam;
 };
+void BindOptions(config::Sdf2dSlam& config, Sdf2dSlamOptions& options);
+// Throws CommandError (kBadInput) when options.load_map cannot be read.
+std::unique_ptr<PlanarSlam> MakeAdapter(const Sdf2dSlamOptions& options);
 
 // 2D-SDF-SLAM on the bus.
-class Sdf2dSlam : public PlanarSlamService {
- public:
-  using Options = Sdf2dSlamOptions;
-  using Config = config::Sdf2dSlam;
-  static constexpr const char* kName = "sdf2d-slam";
-  static Options Complete(Config& config);
-
-  Sdf2dSlam(const Options& options, const Config& config, ServiceContext& context);
-};
+using Sdf2dSlam = ConfiguredSlam<PlanarSlamService, config::Sdf2dSlam, Sdf2dSlamOptions>;
 
 }  // namespace lcmslam
