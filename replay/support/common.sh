@@ -21,6 +21,12 @@ die() {
 # Prints the comment block at the head of the running script, without '# '.
 help() { sed -n '2,/^[^#]/{/^#/s/^# \{0,1\}//p}' "$0"; }
 
+# pose_channel SERVICE: where a SLAM service publishes its pose; sdf2d-slam -> SDF2D_POSE.
+pose_channel() {
+  local name=${1%-slam}
+  printf '%s_POSE\n' "${name^^}"
+}
+
 # ensure_built [CMAKE_TARGET...]
 ensure_built() {
   [[ -n ${LCMSLAM_BIN:-} ]] || "$root/replay/setup" "$@"

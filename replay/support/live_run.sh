@@ -5,14 +5,14 @@
 # start_run SYSTEM EPISODE SECONDS [SIMULATE_OPTION...]: what the services write goes to out/. Processes are named as the
 # services.
 start_run() {
-  local system=$1 episode=$2 seconds=$3 service pose=${1%-slam}
+  local system=$1 episode=$2 seconds=$3 service
   shift 3
   mkdir out
   for service in ground-truth-logger "$system"; do
     start "$service" "$service.log" "$bin/$service" --out out --lcm-url "$lcm_url"
     wait_until "$service" says_ready "$service"
   done
-  start evaluator evaluator.log "$bin/evaluator" --estimate "${pose^^}_POSE" --lcm-url "$lcm_url"
+  start evaluator evaluator.log "$bin/evaluator" --estimate "$(pose_channel "$system")" --lcm-url "$lcm_url"
   wait_until evaluator says_ready evaluator
   start sensor-bridge sensor-bridge.log "$bin/sensor-bridge" simulate --episode "$root/replay/episodes/$episode.pbtxt" \
     --set "duration_s=$seconds" "$@" --lcm-url "$lcm_url" --quiet

@@ -14,9 +14,9 @@ main() {
   "$bin/$system" --quiet --timings --log-in in.lcm --log-out out.lcm
   "$bin/status_lines" out.lcm >statuses.tsv
   printf '%8s %12s %10s\n' minutes 'p99 [ms]' 'memory [MB]'
-  local from name=${system%-slam}
+  local from
   for ((from = 0; from < minutes; from += 10)); do ten_minutes "$from"; done
-  "$bin/evaluator" --log-in out.lcm --estimate "${name^^}_POSE" --reference GROUND_TRUTH
+  "$bin/evaluator" --log-in out.lcm --estimate "$(pose_channel "$system")" --reference GROUND_TRUTH
 }
 
 ten_minutes() {

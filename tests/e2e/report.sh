@@ -23,7 +23,7 @@ main() {
 }
 
 make_results() {
-  local seed system channel folder
+  local seed system folder
   for seed in 1 2; do
     folder=results/seed_$seed
     mkdir -p "$folder"
@@ -31,9 +31,8 @@ make_results() {
     "$bin/sdf2d-slam" --quiet --timings --log-in input.lcm --log-out one.lcm --out "$folder"
     "$bin/occupancy2d-slam" --quiet --timings --log-in one.lcm --log-out run.lcm --out "$folder"
     "$bin/ground-truth-logger" --quiet --log-in input.lcm --out "$folder"
-    for system in sdf2d occupancy2d; do
-      channel=${system^^}_POSE
-      "$bin/evaluator" --quiet --log-in run.lcm --estimate "$channel" --json "$folder/${system}-slam_metrics.json"
+    for system in sdf2d-slam occupancy2d-slam; do
+      "$bin/evaluator" --quiet --log-in run.lcm --estimate "$(pose_channel "$system")" --json "$folder/${system}_metrics.json"
     done
   done >/dev/null 2>&1
 }

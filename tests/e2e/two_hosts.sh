@@ -60,14 +60,14 @@ drive_in_time() {
 
 # drive FOLDER SLAM_SERVICE EPISODE...: a run over both hosts.
 drive() {
-  local folder=$1 service=$2 pose=${2%-slam} name
+  local folder=$1 service=$2 name
   shift 2
   mkdir "$folder"
   start lcm-logger "$folder/lcm-logger.log" "${on_slam[@]}" lcm-logger --quiet --lcm-url="$lcm_url" "$folder/run.lcm"
   wait_until lcm-logger host_listens "${pid_of[lcm-logger]}"
   start ground-truth-logger "$folder/ground-truth-logger.log" "${on_slam[@]}" "$bin/ground-truth-logger" --out "$folder" --lcm-url "$lcm_url"
   start "$service" "$folder/$service.log" "${on_slam[@]}" "$bin/$service" --out "$folder" --lcm-url "$lcm_url"
-  start evaluator "$folder/evaluator.log" "${on_slam[@]}" "$bin/evaluator" --estimate "${pose^^}_POSE" --json "$folder/metrics.json" --lcm-url "$lcm_url"
+  start evaluator "$folder/evaluator.log" "${on_slam[@]}" "$bin/evaluator" --estimate "$(pose_channel "$service")" --json "$folder/metrics.json" --lcm-url "$lcm_url"
   for name in ground-truth-logger "$service" evaluator; do wait_until "$name" says_ready "$name"; done
   start sensor-bridge "$folder/sensor-bridge.log" "${on_lidar[@]}" "$bin/sensor-bridge" simulate "$@" --quiet --lcm-url "$lcm_url"
   finish sensor-bridge
