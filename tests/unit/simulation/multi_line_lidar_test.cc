@@ -11,6 +11,7 @@
 
 #include "geometry/angles.h"
 #include "simulation/spatial_worlds.h"
+#include "unit/simulation/cast_rays.h"
 
 namespace lcmslam {
 namespace {
@@ -204,21 +205,20 @@ TEST(SimulateSweep, BoundAsFromNumericDerivatives) {
   const Sweep sweep = SimulateSweep(world, motion, 3, options, 1).sweep;
   const Pose3 T_world_body = motion.PoseAt(1e-6 * static_cast<double>(sweep.utime));
   const auto ranges_from = [&](const Pose3& T_world_moved) {
-    std::vector<SpatialRay> rays;
+    std::vector<TestRay> rays;
     const Pose3 T_world_lidar = T_world_moved * options.T_body_lidar;
     for (const SweepPoint& p : sweep.points) {
       const Vector3d origin = T_world_lidar * BeamStart(p, options.model);
       const Vector3d direction = T_world_lidar.rotation * AlongBeam(p, options.model).normalized();
       rays.push_back({origin.cast<float>(), direction.cast<float>()});
     }
-    std::vector<SpatialHit> hits(rays.size());
-    world.CastRays(rays, hits);
+    const std::vector<TestHit> hits = CastRays(world, rays);
     return hits;
   };
   constexpr double kStep = 2e-3;
   Eigen::MatrixXd jacobian(sweep.points.size(), 6);
   for (int axis = 0; axis < 6; ++axis) {
-    std::array<std::vector<SpatialHit>, 2> hits;
+    std::array<std::vector<TestHit>, 2> hits;
     for (const int side : {0, 1}) {
       const Vector3d step = (side == 0 ? -kStep : kStep) * Vector3d::Unit(axis % 3);
       Pose3 moved = T_world_body;

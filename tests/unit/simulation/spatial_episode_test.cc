@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/spatial_worlds.h"
+#include "unit/simulation/cast_rays.h"
 
 namespace lcmslam {
 namespace {
@@ -90,15 +91,14 @@ TEST(SpatialWorlds, ByName) {
 // The hall is closed but for its window: rays from the middle leave only through it.
 TEST(SpatialWorlds, HallIsClosedButForItsWindow) {
   const SpatialWorld world = Hall10World();
-  std::vector<SpatialRay> rays;
+  std::vector<TestRay> rays;
   for (int i = 0; i < 20'000; ++i) {  // Fibonacci sphere
     const double z = 1.0 - (2.0 * i + 1.0) / 20'000.0;
     const double angle_rad = 2.399963 * i, r = std::sqrt(1.0 - z * z);
     const Eigen::Vector3d direction(r * std::cos(angle_rad), r * std::sin(angle_rad), z);
     rays.push_back({world.p_inside().cast<float>(), direction.cast<float>()});
   }
-  std::vector<SpatialHit> hits(rays.size());
-  world.CastRays(rays, hits);
+  const std::vector<TestHit> hits = CastRays(world, rays);
   int out = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
     if (std::isfinite(hits[i].range_m)) continue;
