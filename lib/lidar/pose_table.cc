@@ -4,9 +4,20 @@ namespace lcmslam {
 
 PoseTable::PoseTable(const TimeSlots& slots, const std::function<Pose3(double dt_us)>& T_map_lidar)
     : entries_(slots.has_times() ? TimeSlots::kSlots : 1) {
-  for (size_t slot = 0; slot < entries_.size(); ++slot) {
+  const auto entry_at = [&](size_t slot) -> Entry {
     const Pose3 pose = T_map_lidar(slots.MiddleUs(static_cast<double>(slot)));
-    entries_[slot] = {pose.rotation.toRotationMatrix(), pose.translation};
+    return {pose.rotation.toRotationMatrix(), pose.translation};
+  };
+  Entry knot = entry_at(0);
+  for (size_t first = 0; first < entries_.size(); first += kKnotSlots) {
+    const Entry next = entries_.size() > 1 ? entry_at(first + kKnotSlots) : knot;
+    const Eigen::Matrix3d R_step = (next.R_map_lidar - knot.R_map_lidar) / kKnotSlots;
+    const Eigen::Vector3d t_step = (next.t_map_lidar - knot.t_map_lidar) / kKnotSlots;
+    for (size_t i = 0; i < kKnotSlots && first + i < entries_.size(); ++i) {
+      const auto steps = static_cast<double>(i);
+      entries_[first + i] = {knot.R_map_lidar + steps * R_step, knot.t_map_lidar + steps * t_step};
+    }
+    knot = next;
   }
 }
 

@@ -67,8 +67,7 @@ std::string RegistrationOptions::Validate() const {
       .Field("max_iterations", max_iterations, 1, 1000)
       .Field("kernel", kernel, 0.1, 100.0)
       .Field("model_error_m", model_error_m, 1e-6, 1.0)
-      .Field("step_m", step_m, 1e-9, 0.1)
-      .Field("step_rad", step_rad, 1e-9, 0.1)
+      .Field("step_sigmas", step_sigmas, 1e-6, 10.0)
       .Field("acceleration_mps2", acceleration_mps2, 1e-3, 1000.0)
       .Field("angular_acceleration_radps2", angular_acceleration_radps2, 1e-3, 1000.0)
       .Field("min_direction_share", min_direction_share, 0.0, 0.3)
@@ -107,6 +106,8 @@ std::string Options::Validate() const {
       .Group("search", search.Validate())
       .Group("trust", trust.Validate())
       .Field("max_points", max_points, 1000, 1e7)
+      .Field("update_distance_m", update_distance_m, 0.0, 100.0)
+      .Field("update_angle_rad", update_angle_rad, 0.0, 10.0)
       .Field("threads", threads, 1, 2)
       .Reason();
 }

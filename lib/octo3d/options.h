@@ -34,8 +34,7 @@ struct RegistrationOptions {
   int max_iterations = 12;
   double kernel = 1.0;             // residuals beyond this many standard deviations lose their weight (Geman-McClure)
   double model_error_m = 0.01;     // per patch, uncorrelated between patches: what the map never models
-  double step_m = 1e-4;            // converged when the pose moves less ...
-  double step_rad = 1e-4;          // ... and turns less
+  double step_sigmas = 0.5;        // converged when a step is shorter, in standard deviations of the motion
   double acceleration_mps2 = 0.5;  // expected changes of velocity: the motion prior
   double angular_acceleration_radps2 = 0.5;
   double min_direction_share = 1e-3;  // directions with less of the information are held by the motion prior
@@ -72,10 +71,12 @@ struct Options {
   RegistrationOptions registration;
   CoarseSearchOptions search;
   TrustOptions trust;
-  bool localize_only = false;    // the map stays as it is
-  int max_points = 20000;        // of a sweep; more are thinned evenly: they add time, not accuracy
-  int threads = 1;               // 2: another one takes a sweep into the map while the next is prepared
-  std::string Validate() const;  // "" or "group.field: reason"
+  bool localize_only = false;      // the map stays as it is
+  int max_points = 20000;          // of a sweep; more are thinned evenly: they add time, not accuracy
+  double update_distance_m = 0.2;  // the map takes a sweep in after so much motion ...
+  double update_angle_rad = 0.1;   // ... or so much rotation: a still lidar shows it nothing new
+  int threads = 1;                 // 2: another one takes a sweep into the map while the next is prepared
+  std::string Validate() const;    // "" or "group.field: reason"
 };
 
 }  // namespace lcmslam::octo3d

@@ -91,7 +91,7 @@ Result Pipeline::Process(const Sweep& dense_sweep, const MotionHint& hint) {
   result.patches = static_cast<int>(patches.size());
   result.searched = good && searched;
   result.began_anew = began_anew;
-  result.inserted = good && !options_.localize_only && Insert(sweep, registration.motion);
+  result.inserted = good && !options_.localize_only && MovedEnough() && Insert(sweep, registration.motion);
   Charge(Stage::kInsert);
   result.stage_ms = stage_ms_;
   return result;
@@ -185,6 +185,13 @@ bool Pipeline::IsGood(const RegistrationResult& registration) const {
          registration.normalised_residual <= trust.max_residual && registration.belief.mean.T_map_body.IsFinite();
 }
 
+bool Pipeline::MovedEnough() const {
+  if (!T_map_inserted_) return true;
+  const Pose3 motion = T_map_inserted_->inverse() * belief_.mean.T_map_body;
+  return motion.translation.norm() >= options_.update_distance_m ||
+         AngleBetween(motion.rotation, Eigen::Quaterniond::Identity()) >= options_.update_angle_rad;
+}
+
 // False when there was no point to insert.
 bool Pipeline::Insert(const Sweep& sweep, const MotionSegment& motion) {
   const double duration_us = motion.duration_s() / kUsToS;
@@ -197,6 +204,7 @@ bool Pipeline::Insert(const Sweep& sweep, const MotionSegment& motion) {
     points.push_back((poses[slots.SlotOf(point.dt_us)] * Eigen::Vector3d(point.x, point.y, point.z)).cast<float>());
   }
   if (points.empty()) return false;
+  T_map_inserted_ = motion.to().T_map_body;
   const auto insert = [this, points = std::move(points), viewpoint = motion.to().T_map_body.translation] {
     map_.Insert(points, viewpoint.cast<float>());
   };
@@ -271,6 +279,7 @@ void Pipeline::SetPose(const Pose3& T_map_body) {
   belief_ = AtRest(T_map_body, options_.trust.set_pose_m, options_.trust.set_pose_rad, options_.trust);
   utime_.reset();
   first_.reset();
+  T_map_inserted_.reset();
 }
 
 void Pipeline::SetMap(SurfelMap map) {

@@ -86,6 +86,7 @@ class Pipeline {
   RegistrationResult StartInMotion(const TimedPatches& patches, const RelativeMotion& hint,
                                    const RegistrationResult& from_rest, bool& began_anew);
   bool IsGood(const RegistrationResult& registration) const;
+  bool MovedEnough() const;
   bool Insert(const Sweep& sweep, const MotionSegment& motion);
   void AwaitInsertion() const;
   void StartClock();
@@ -95,9 +96,10 @@ class Pipeline {
 
   Options options_;
   SurfelMap map_;
-  std::optional<int64_t> utime_;  // of the last sweep
-  std::optional<Sweep> first_;    // made the map; until the next one tells how it had moved
-  StateBelief belief_;            // at utime_
+  std::optional<int64_t> utime_;         // of the last sweep
+  std::optional<Sweep> first_;           // made the map; until the next one tells how it had moved
+  StateBelief belief_;                   // at utime_
+  std::optional<Pose3> T_map_inserted_;  // where the lidar was when the map took a sweep in last
   std::function<double()> now_ms_;
   double last_ms_ = 0.0;
   std::array<double, kStageNames.size()> stage_ms_{};  // of the sweep in hand

@@ -180,7 +180,7 @@ void Registrar::AddPriors(Matrix24& H, Vector24& b) const {
   b += J_hint.transpose() * (W * error);
 }
 
-// One Gauss-Newton step; true when the pose at the sweep's end hardly moved.
+// One Gauss-Newton step; true when it is small beside what the states are uncertain by (Newton's decrement).
 bool Registrar::Step() {
   result_.measured = measured_.Total();
   const Observability observability = FindUnobservable(result_.measured, options_.min_direction_share);
@@ -193,7 +193,7 @@ bool Registrar::Step() {
   const Vector24 delta = -H_.ldlt().solve(b);
   result_.motion = MotionSegment(Add(result_.motion.from(), delta.head<12>()),
                                  Add(result_.motion.to(), delta.tail<12>()), sweep_.duration_s);
-  return delta.segment<3>(12).norm() < options_.step_m && delta.segment<3>(15).norm() < options_.step_rad;
+  return -delta.dot(b) < options_.step_sigmas * options_.step_sigmas;
 }
 
 void Registrar::Summarise() {

@@ -20,7 +20,7 @@ void BindPatches(ConfigBinder bind, octo3d::PatchOptions& patches) {
 void BindRegistration(ConfigBinder bind, octo3d::RegistrationOptions& registration) {
   bind("max_iterations", registration.max_iterations)("kernel", registration.kernel);
   bind("model_error_m", registration.model_error_m);
-  bind("step_m", registration.step_m)("step_rad", registration.step_rad);
+  bind("step_sigmas", registration.step_sigmas);
   bind("acceleration_mps2", registration.acceleration_mps2);
   bind("angular_acceleration_radps2", registration.angular_acceleration_radps2);
   bind("min_direction_share", registration.min_direction_share);
@@ -47,6 +47,7 @@ void BindOptions(config::Octo3dSlam& config, Octo3dSlamOptions& options) {
   BindShell(bind, "OCTO3D", options.service);
   bind.Sub("channels")("imu", options.service.imu_channel)("map", options.map_channel);
   bind("load_map", options.service.load_map)("threads", slam.threads)("max_points", slam.max_points);
+  bind("update_distance_m", slam.update_distance_m)("update_angle_rad", slam.update_angle_rad);
   BindMap(bind.Sub("map"), slam.map);
   BindPatches(bind.Sub("patches"), slam.patches);
   BindRegistration(bind.Sub("registration"), slam.registration);

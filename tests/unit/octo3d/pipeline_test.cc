@@ -62,6 +62,31 @@ TEST(Pipeline, TracksSweepsWithoutTimes) {
   EXPECT_LT(WorstError(Episode("hall10", 3.0, false), pipeline), 0.03);
 }
 
+TEST(Pipeline, TakesInWhatMotionShowsAndNothingAtRest) {
+  const SpatialEpisode episode = Episode("hall10", 4.0, false);
+  Pipeline pipeline{Options{}};
+  EXPECT_TRUE(pipeline.Process(episode.Frame(0).sweep).inserted);
+  Sweep again = episode.Frame(0).sweep;
+  for (int i = 0; i < 3; ++i) {
+    again.utime += 100'000;
+    const Result result = pipeline.Process(again);
+    EXPECT_EQ(result.status, SweepStatus::kTracking);
+    EXPECT_FALSE(result.inserted);
+  }
+  Pose3 T_map_inserted;
+  for (int i = 0; i < episode.num_frames(); ++i) {
+    Sweep sweep = episode.Frame(i).sweep;
+    sweep.utime = again.utime + 100'000 * (i + 1);
+    const Result result = pipeline.Process(sweep);
+    const Pose3 motion = T_map_inserted.inverse() * result.T_map_body;
+    EXPECT_EQ(result.inserted,
+              motion.translation.norm() >= pipeline.options().update_distance_m ||
+                  AngleBetween(motion.rotation, Eigen::Quaterniond::Identity()) >= pipeline.options().update_angle_rad);
+    if (result.inserted) T_map_inserted = result.T_map_body;
+  }
+  EXPECT_GT(T_map_inserted.translation.norm(), 0.0);
+}
+
 TEST(Pipeline, SaysWhatACorridorDoesNotShow) {
   // Two walls, floor and ceiling without end.
   Sweep sweep{.utime = 0, .points = {}};
