@@ -91,7 +91,8 @@ void LiveBus::Publish(const std::string& channel, Bytes data) {
   }
 }
 
-LiveReceiver::LiveReceiver(LiveBus& bus, size_t capacity_messages) : bus_(bus), capacity_(capacity_messages) {
+LiveReceiver::LiveReceiver(LiveBus& bus, const std::string& channels, size_t capacity_messages)
+    : bus_(bus), capacity_(capacity_messages) {
   struct Callback {
     static void OnMessage(const lcm::ReceiveBuffer* buffer, const std::string& channel, LiveReceiver* self) {
       const auto* data = static_cast<const uint8_t*>(buffer->data);
@@ -104,7 +105,7 @@ LiveReceiver::LiveReceiver(LiveBus& bus, size_t capacity_messages) : bus_(bus), 
       self->arrived_.notify_one();
     }
   };
-  auto* subscription = bus_.lcm().subscribeFunction(".*", &Callback::OnMessage, this);
+  auto* subscription = bus_.lcm().subscribeFunction("(" + channels + ")", &Callback::OnMessage, this);
   if (subscription == nullptr)
     throw CommandError(ExitCode::kRuntime, fmt::format("LCM URL '{}': cannot subscribe", bus_.url()));
   subscription->setQueueCapacity(0);  // unlimited: this thread takes messages out as they come

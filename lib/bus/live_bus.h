@@ -35,11 +35,11 @@ class LiveBus {
   std::unique_ptr<lcm::LCM> lcm_;
 };
 
-// Receives everything on the bus in its own thread, so that a slow handler fills this queue, whose overflow is counted,
-// and not the ones below it, which lose in silence. Pop from one thread.
+// Receives the channels that match a regular expression as a whole, in its own thread, so that a slow handler fills this
+// queue, whose overflow is counted, and not the ones below it, which lose in silence. Pop from one thread.
 class LiveReceiver {
  public:
-  LiveReceiver(LiveBus& bus, size_t capacity_messages);
+  LiveReceiver(LiveBus& bus, const std::string& channels, size_t capacity_messages);
   ~LiveReceiver();
 
   // The oldest waiting message, with the wall-clock time of its arrival; none when there is none within the timeout,

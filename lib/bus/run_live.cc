@@ -35,7 +35,7 @@ ExitCode RunLive(ServiceContext& context, const ServiceFactory& make_service) {
   LiveBus bus(context.options().lcm_url);
   context.SetSink([&](int64_t, const std::string& channel, Bytes data) { bus.Publish(channel, data); });
   const std::unique_ptr<Service> service = make_service(context);
-  LiveReceiver receiver(bus, static_cast<size_t>(context.options().queue_messages));
+  LiveReceiver receiver(bus, context.channels(), static_cast<size_t>(context.options().queue_messages));
   fmt::print(stderr, "READY\n");
 
   SecondTimer second;

@@ -25,6 +25,7 @@ void ServiceContext::Subscribe(const std::string& channel_pattern, Handler handl
   } catch (const std::regex_error&) {
     throw CommandError(ExitCode::kUsage, "channel '" + channel_pattern + "': not a regular expression");
   }
+  channels_ += (channels_.empty() ? "(" : "|(") + channel_pattern + ")";
   by_channel_.clear();
 }
 

@@ -60,6 +60,8 @@ class ServiceContext {
   const RunOptions& options() const { return options_; }
   // Whether messages may carry wall-clock figures (see RunOptions::timings).
   bool wall_clock() const { return options_.log_in.empty() || options_.timings; }
+  // A regular expression that matches the channels subscribed to, and no other.
+  const std::string& channels() const { return channels_; }
   // "sdf2d-slam" -> "SDF2D_SLAM_STATUS".
   const std::string& status_channel() const { return status_channel_; }
 
@@ -78,6 +80,7 @@ class ServiceContext {
 
   RunOptions options_;
   std::string status_channel_;
+  std::string channels_;
   Health health_;
   Sink sink_;
   int64_t now_utime_ = 0;

@@ -19,6 +19,9 @@ main() {
   check "port shared" finds 0 'warning  port 7667: lcm-logger' port_shared "$here"
   check "small default buffer" mends 'FAULT    receive buffer' small_default_buffer "$here"
   check "small buffer limit" mends 'FAULT    receive buffer' small_buffer_limit "$wide"
+  check "little memory for fragments" mends 'FAULT    fragments' little_for_fragments "$abroad"
+  check "memory for fragments at a loss" finds 0 'warning  fragments: 4194304 bytes' fragments_by_default "$abroad"
+  check "memory for fragments" finds 0 'ok       fragments' much_for_fragments "$abroad"
   if command -v nft >/dev/null; then
     check "firewall" mends 'FAULT    delivery: .* none' walled "$here"
   else
@@ -59,6 +62,9 @@ listening() { until [[ -n $(ss -lunH "sport = :7667") ]]; do sleep 0.05; done; }
 small_default_buffer() { healthy && shrink rmem_default; }
 small_buffer_limit() { healthy && shrink rmem_max; }
 shrink() { echo 20000 >small && mount --bind small "/proc/sys/net/core/$1"; }
+little_for_fragments() { networked && sysctl -qw net.ipv4.ipfrag_low_thresh=10000 net.ipv4.ipfrag_high_thresh=20000; }
+fragments_by_default() { networked && sysctl -qw net.ipv4.ipfrag_high_thresh=4194304 net.ipv4.ipfrag_time=30; }
+much_for_fragments() { networked && sysctl -qw net.ipv4.ipfrag_high_thresh=67108864 net.ipv4.ipfrag_time=1; }
 walled() {
   healthy
   nft "add table inet wall; add chain inet wall input { type filter hook input priority 0; policy drop; }"

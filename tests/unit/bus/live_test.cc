@@ -1,4 +1,5 @@
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -31,7 +32,7 @@ class Live : public testing::Test {
 };
 
 TEST_F(Live, DeliversInOrder) {
-  LiveReceiver receiver(*receiving_, 1000);
+  LiveReceiver receiver(*receiving_, "COUNT", 1000);
   Send(100);
   for (int i = 0; i < 100; ++i) {
     const auto arrival = receiver.Pop(milliseconds(2000));
@@ -42,8 +43,22 @@ TEST_F(Live, DeliversInOrder) {
   EXPECT_EQ(receiver.dropped(), 0);
 }
 
+TEST_F(Live, HearsTheChannelsAskedForAndNoOther) {
+  LiveReceiver receiver(*receiving_, "(COUNT)|(LIDAR_2D(_EXTRINSICS)?)", 1000);
+  const Bytes data{};
+  for (const char* channel : {"LIDAR_2D", "LIDAR_2D_FRONT", "LIDAR_2D_EXTRINSICS", "ACCOUNT", "COUNTS", "COUNT"})
+    sender_->Publish(channel, data);
+  std::vector<std::string> heard;
+  while (heard.size() < 3) {
+    const auto arrival = receiver.Pop(milliseconds(2000));
+    ASSERT_TRUE(arrival);
+    heard.push_back(arrival->channel);
+  }
+  EXPECT_THAT(heard, testing::ElementsAre("LIDAR_2D", "LIDAR_2D_EXTRINSICS", "COUNT"));
+}
+
 TEST_F(Live, CountsWhatAFullQueueDrops) {
-  LiveReceiver receiver(*receiving_, 10);
+  LiveReceiver receiver(*receiving_, "COUNT", 10);
   Send(25);
   receiver.Drain();
   int received = 0;
@@ -55,7 +70,7 @@ TEST_F(Live, CountsWhatAFullQueueDrops) {
 }
 
 TEST_F(Live, DrainsWhatHasArrived) {
-  LiveReceiver receiver(*receiving_, 1000);
+  LiveReceiver receiver(*receiving_, "COUNT", 1000);
   Send(50);
   receiver.Drain();
   int received = 0;
