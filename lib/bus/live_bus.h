@@ -35,8 +35,8 @@ class LiveBus {
   std::unique_ptr<lcm::LCM> lcm_;
 };
 
-// Receives the channels that match a regular expression as a whole, in its own thread, so that a slow handler fills this
-// queue, whose overflow is counted, and not the ones below it, which lose in silence. Pop from one thread.
+// Receives the channels that match a regular expression as a whole, in its own thread, so that a slow handler fills
+// this queue, whose overflow is counted, and not the ones below it, which lose in silence. Pop from one thread.
 class LiveReceiver {
  public:
   LiveReceiver(LiveBus& bus, const std::string& channels, size_t capacity_messages);

@@ -40,7 +40,7 @@ run_both() {
   "$bin/sensor-bridge" simulate --episode "$root/replay/episodes/demo.pbtxt" --set "duration_s=$((60 * minutes))" \
     "${at_20_hz[@]}" --quiet --log-out planar.lcm >/dev/null
   mkdir planar
-  start sdf2d-slam sdf2d-slam.log "$bin/sdf2d-slam" --out planar --lcm-url "$lcm_url"
+  start sdf2d-slam sdf2d-slam.log "$bin/sdf2d-slam" --set channels.lidar=LIDAR_2D --out planar --lcm-url "$lcm_url"
   wait_until sdf2d-slam says_ready sdf2d-slam
   start_run octo3d-slam hall10_rated_distortion $((60 * minutes))
   start player player.log lcm-logplayer --regexp='LIDAR_2D.*' --lcm-url="$lcm_url" planar.lcm
