@@ -1,5 +1,6 @@
 #include "sensors/ply.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -109,7 +110,7 @@ class NumberSource {
 
 class AsciiSource : public NumberSource {
  public:
-  explicit AsciiSource(std::string_view text) : lines_(text) {}
+  explicit AsciiSource(LineReader& lines) : lines_(lines) {}
   double Next(const NumberType&) override {
     while (at_ == words_.size()) {
       std::string_view line;
@@ -122,7 +123,7 @@ class AsciiSource : public NumberSource {
   size_t BytesLeft() const override { return lines_.rest().size() + 2 * words_.size(); }
 
  private:
-  LineReader lines_;
+  LineReader& lines_;
   Words words_;
   size_t at_ = 0;
 };
@@ -139,19 +140,26 @@ class BinarySource : public NumberSource {
   bool big_endian_;
 };
 
-std::unique_ptr<NumberSource> Body(Format format, std::string_view rest) {
-  if (format == Format::kAscii) return std::make_unique<AsciiSource>(rest);
-  return std::make_unique<BinarySource>(rest, format == Format::kBigEndian);
+// What the lines hold from here on.
+std::unique_ptr<NumberSource> Body(Format format, LineReader& lines) {
+  if (format == Format::kAscii) return std::make_unique<AsciiSource>(lines);
+  return std::make_unique<BinarySource>(lines.rest(), format == Format::kBigEndian);
 }
 
-void PassOverList(const Property& property, NumberSource& body) {
+void ReadList(const Property& property, NumberSource& body, std::vector<double>& values) {
   const double count = body.Next(*property.count_type);
   if (!(count >= 0.0 && count <= static_cast<double>(body.BytesLeft()))) throw BadInput("a list beyond the end");
-  for (double i = 0.0; i < count; ++i) (void)body.Next(property.type);
+  values.clear();
+  for (double i = 0.0; i < count; ++i) values.push_back(body.Next(property.type));
 }
 
+// Is given every list of an element.
+using ListTaker = std::function<void(const std::string& property, std::span<const double> values)>;
+
+void PassOver(const std::string& /*property*/, std::span<const double> /*values*/) {}
+
 // Every number takes a byte or more, so that counts which cannot be true are seen before memory is taken.
-PointTable ReadElement(const Element& element, NumberSource& body) {
+PointTable ReadElement(const Element& element, NumberSource& body, const ListTaker& take_list = PassOver) {
   if (element.count > 0 && element.properties.empty()) throw BadInput("an element without properties");
   if (element.count > body.BytesLeft()) throw BadInput("fewer numbers than the header says");
   PointTable table{.num_points = element.count, .columns = {}};
@@ -159,11 +167,13 @@ PointTable ReadElement(const Element& element, NumberSource& body) {
   for (const Property& property : element.properties) {
     columns.push_back(property.count_type ? nullptr : &table.AddColumn(property.name));
   }
+  std::vector<double> list;
   for (size_t i = 0; i < element.count; ++i) {
     for (size_t p = 0; p < columns.size(); ++p) {
       const Property& property = element.properties[p];
       if (columns[p] == nullptr) {
-        PassOverList(property, body);
+        ReadList(property, body, list);
+        take_list(property.name, list);
       } else {
         columns[p]->push_back(body.Next(property.type));
       }
@@ -180,16 +190,58 @@ PointTable ReadVertices(const Header& header, NumberSource& body) {
   throw BadInput("no element vertex");
 }
 
-}  // namespace
+std::vector<Eigen::Vector3d> VerticesOf(const PointTable& table) {
+  for (const char* name : {"x", "y", "z"}) {
+    if (!table.columns.contains(name)) throw BadInput(fmt::format("no {}", name));
+  }
+  const auto &x = table.columns.at("x"), &y = table.columns.at("y"), &z = table.columns.at("z");
+  std::vector<Eigen::Vector3d> vertices;
+  for (size_t i = 0; i < table.num_points; ++i) {
+    vertices.emplace_back(x[i], y[i], z[i]);
+    if (!vertices.back().allFinite()) throw BadInput(fmt::format("vertex {} is not finite", i));
+  }
+  return vertices;
+}
 
-PointTable ParsePly(std::span<const uint8_t> file) {
+void AddFace(std::span<const double> corners, PlyMesh& mesh) {
+  const auto vertex = [&mesh](double corner) {
+    if (!(corner >= 0.0 && corner < static_cast<double>(mesh.vertices.size())))
+      throw BadInput(fmt::format("a face with vertex {} of {}", corner, mesh.vertices.size()));
+    return static_cast<uint32_t>(corner);
+  };
+  for (size_t i = 2; i < corners.size(); ++i)
+    mesh.triangles.push_back({vertex(corners[0]), vertex(corners[i - 1]), vertex(corners[i])});
+}
+
+PlyMesh ReadMesh(const Header& header, NumberSource& body) {
+  PlyMesh mesh;
+  const auto take_list = [&mesh](const std::string& property, std::span<const double> values) {
+    if (property == "vertex_indices" || property == "vertex_index") AddFace(values, mesh);
+  };
+  for (const Element& element : header.elements) {
+    const PointTable table =
+        element.name == "face" ? ReadElement(element, body, take_list) : ReadElement(element, body);
+    if (element.name == "vertex") mesh.vertices = VerticesOf(table);
+  }
+  if (mesh.triangles.empty()) throw BadInput("no faces");
+  return mesh;
+}
+
+template <class Read>
+auto ParseWith(const Read& read, std::span<const uint8_t> file) {
   LineReader lines({reinterpret_cast<const char*>(file.data()), file.size()});
   try {
     const Header header = ReadHeader(lines);
-    return ReadVertices(header, *Body(*header.format, lines.rest()));
+    return read(header, *Body(*header.format, lines));
   } catch (const BadInput& error) {
     throw BadInput(fmt::format("PLY line {}: {}", lines.number(), error.what()));
   }
 }
+
+}  // namespace
+
+PointTable ParsePly(std::span<const uint8_t> file) { return ParseWith(ReadVertices, file); }
+
+PlyMesh ParsePlyMesh(std::span<const uint8_t> file) { return ParseWith(ReadMesh, file); }
 
 }  // namespace lcmslam

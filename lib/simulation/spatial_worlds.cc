@@ -43,7 +43,7 @@ class Builder {
   Builder& Radiator(double length_m, const Pose3& T_world_radiator);
   Builder& DoorFrame(const Pose3& T_world_door);
 
-  SpatialWorld Build(const Vector3d& p_inside) { return {std::move(solids_), p_inside}; }
+  SpatialParts Build(const Vector3d& p_inside) { return {std::move(solids_), p_inside}; }
 
  private:
   std::vector<Solid> solids_;
@@ -139,22 +139,20 @@ void AddHallFurniture(Builder& builder) {
   builder.Add(MakeSphere(0.33), At(1.0, 0.8, 0.33), kCloth);                                        // gymnastic ball
 }
 
-}  // namespace
-
-SpatialWorld Hall10World() {
+SpatialParts Hall10() {
   Builder builder;
   AddHallShell(builder);
   AddHallFurniture(builder);
   return builder.Build({5.0, 4.0, 1.3});
 }
 
-SpatialWorld BareRoomWorld() {
+SpatialParts BareRoom() {
   Builder builder;
   AddShell(builder, {6.0, 5.0, 2.7});
   return builder.Build({3.0, 2.5, 1.3});
 }
 
-SpatialWorld Corridor40World() {
+SpatialParts Corridor40() {
   Builder builder;
   AddShell(builder, {40.0, 2.0, 2.6});
   for (const double x : {3.0, 8.5, 14.0, 19.5, 25.0, 30.5, 36.0}) builder.DoorFrame(At(x, 0.0, 0.0, 90.0));
@@ -162,11 +160,25 @@ SpatialWorld Corridor40World() {
   return builder.Build({20.0, 1.0, 1.3});
 }
 
-std::optional<SpatialWorld> NamedSpatialWorld(std::string_view name) {
-  if (name == "hall10") return Hall10World();
-  if (name == "bare_room") return BareRoomWorld();
-  if (name == "corridor40") return Corridor40World();
+SpatialWorld Built(const SpatialParts& parts) { return {parts.solids, parts.p_inside}; }
+
+}  // namespace
+
+std::optional<SpatialParts> NamedSpatialParts(std::string_view name) {
+  if (name == "hall10") return Hall10();
+  if (name == "bare_room") return BareRoom();
+  if (name == "corridor40") return Corridor40();
   return std::nullopt;
 }
+
+std::optional<SpatialWorld> NamedSpatialWorld(std::string_view name) {
+  const std::optional<SpatialParts> parts = NamedSpatialParts(name);
+  if (!parts) return std::nullopt;
+  return Built(*parts);
+}
+
+SpatialWorld Hall10World() { return Built(Hall10()); }
+SpatialWorld BareRoomWorld() { return Built(BareRoom()); }
+SpatialWorld Corridor40World() { return Built(Corridor40()); }
 
 }  // namespace lcmslam

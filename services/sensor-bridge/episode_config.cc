@@ -9,7 +9,7 @@ namespace lcmslam {
 
 Episode MakeEpisode(config::Episode& config, const std::filesystem::path& folder) {
   if (config.has_planar() && config.has_spatial()) RequireValid("spatial: planar is set as well");
-  if (config.has_spatial()) return MakeSpatialEpisode(config);
+  if (config.has_spatial()) return MakeSpatialEpisode(config, folder);
   return MakePlanarEpisode(config, folder);
 }
 

@@ -1,16 +1,14 @@
 #include "sensor-bridge/spatial_episode_config.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 
-#include <Eigen/Geometry>
-#include <fmt/format.h>
-
 #include "common/config.h"
 #include "sensor-bridge/episode.pb.h"
 #include "sensor-bridge/odometry_config.h"
-#include "simulation/spatial_worlds.h"
+#include "sensor-bridge/spatial_episode_world.h"
 
 namespace lcmslam {
 namespace {
@@ -32,17 +30,6 @@ MultiLineModel ModelOf(LidarType type) {
   return {};
 }
 
-Pose3 BindPose(ConfigBinder bind) {
-  Pose3 pose;
-  double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
-  bind("x_m", pose.translation.x())("y_m", pose.translation.y())("z_m", pose.translation.z());
-  bind("yaw_rad", yaw_rad)("pitch_rad", pitch_rad)("roll_rad", roll_rad);
-  pose.rotation = Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
-                  Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-                  Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
-  return pose;
-}
-
 void BindLidar(ConfigBinder bind, MultiLineLidarOptions& lidar) {
   LidarType type{};
   bind("type", type)("range_sigma_m", lidar.range_sigma_m)("dropout_probability", lidar.dropout_probability);
@@ -50,7 +37,7 @@ void BindLidar(ConfigBinder bind, MultiLineLidarOptions& lidar) {
   lidar.model = ModelOf(type);
   ConfigBinder model = bind.Sub("model");
   model("turn_s", lidar.model.turn_s)("min_range_m", lidar.model.min_range_m)("max_range_m", lidar.model.max_range_m);
-  lidar.T_body_lidar = BindPose(bind.Sub("mounting"));
+  lidar.T_body_lidar = BindSpatialPose(bind.Sub("mounting"));
 }
 
 void BindCarrier(ConfigBinder bind, SpatialCarrierOptions& carrier) {
@@ -70,14 +57,6 @@ void BindImu(ConfigBinder bind, ImuOptions& imu) {
   bind("accelerometer_walk_mps3_per_sqrt_hz", imu.accelerometer_walk_mps3_per_sqrt_hz);
 }
 
-SpatialWorld MakeSpatialWorld(ConfigBinder bind) {
-  std::string name = "hall10";
-  bind("name", name);
-  std::optional<SpatialWorld> world = NamedSpatialWorld(name);
-  if (!world) RequireValid(fmt::format("spatial.world.name: no world is called '{}'", name));
-  return *std::move(world);
-}
-
 // SpatialEpisodeOptions names its parts as the file's section `spatial` does.
 std::string InFile(const std::string& reason) {
   const bool is_part = reason.find('.') < reason.find(':');
@@ -86,7 +65,7 @@ std::string InFile(const std::string& reason) {
 
 }  // namespace
 
-SpatialEpisode MakeSpatialEpisode(config::Episode& config) {
+SpatialEpisode MakeSpatialEpisode(config::Episode& config, const std::filesystem::path& folder) {
   SpatialEpisodeOptions options;
   ConfigBinder bind(config);
   bind("seed", options.seed)("duration_s", options.duration_s)("start_utime", options.start_utime);
@@ -97,7 +76,8 @@ SpatialEpisode MakeSpatialEpisode(config::Episode& config) {
   BindOdometry(spatial.Sub("odometry"), options.odometry);
   RequireValid(InFile(options.Validate()));
 
-  std::optional<SpatialEpisode> episode = SpatialEpisode::Create(MakeSpatialWorld(spatial.Sub("world")), options);
+  SpatialWorld world = MakeSpatialWorld(*config.mutable_spatial()->mutable_world(), folder);
+  std::optional<SpatialEpisode> episode = SpatialEpisode::Create(std::move(world), options);
   if (!episode) RequireValid("spatial.carrier.clearance_m: the world leaves no room to move");
   if (episode->num_frames() == 0) RequireValid("duration_s: shorter than one sweep");
   return *std::move(episode);

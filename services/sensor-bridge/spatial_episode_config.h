@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "simulation/spatial_episode.h"
 
 namespace lcmslam {
@@ -9,6 +11,6 @@ class Episode;
 }
 
 // The episode of a multi-line lidar; see MakeEpisode.
-[[nodiscard]] SpatialEpisode MakeSpatialEpisode(config::Episode& config);
+[[nodiscard]] SpatialEpisode MakeSpatialEpisode(config::Episode& config, const std::filesystem::path& folder);
 
 }  // namespace lcmslam

@@ -148,7 +148,8 @@ TEST(Simulate, EveryShippedEpisodeRuns) {
   for (const auto& entry : std::filesystem::directory_iterator(LCMSLAM_SOURCE_DIR "/replay/episodes")) {
     if (entry.path().extension() != ".pbtxt") continue;
     SCOPED_TRACE(entry.path());
-    const Simulated simulated(FileBytes(entry.path()), {"--set", "duration_s=0.5"});
+    BridgeRun simulated;
+    simulated.Run({"simulate", "--episode", entry.path().string(), "--set", "duration_s=0.5"});
     EXPECT_EQ(simulated.exit_code, 0);
     EXPECT_FALSE(simulated.On("GROUND_TRUTH").empty());
     EXPECT_NE(simulated.On("LIDAR_2D").empty(), simulated.On("LIDAR_3D").empty());
