@@ -128,11 +128,24 @@ std::vector<std::string> VelodynePackets() {
   return payloads;
 }
 
+constexpr char kPcdHeader[] = "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nPOINTS 20\n";
+
 std::string PcdFile() {
-  std::string text =
-      "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nPOINTS 20\nDATA ascii\n";
+  std::string text = std::string(kPcdHeader) + "DATA ascii\n";
   for (int i = 0; i < 20; ++i) text += fmt::format("{} 0.5 -1 {}\n", i, i % 16);
   return text;
+}
+
+std::string BinaryPcdFile() { return std::string(kPcdHeader) + "DATA binary\n" + std::string(20 * 14, '\0'); }
+
+// LZF: a count less one, then as many bytes as they are.
+std::string CompressedPcdFile() {
+  constexpr uint32_t kBytes = 20 * 14, kRun = 28;
+  std::string body;
+  for (uint32_t i = 0; i < kBytes; i += kRun) body += static_cast<char>(kRun - 1) + std::string(kRun, '\0');
+  const uint32_t sizes[] = {static_cast<uint32_t>(body.size()), kBytes};
+  return std::string(kPcdHeader) + "DATA binary_compressed\n" +
+         std::string(reinterpret_cast<const char*>(sizes), sizeof(sizes)) + body;
 }
 
 std::string PlyFile() {
@@ -141,6 +154,8 @@ std::string PlyFile() {
       "property float z\nend_header\n";
   return text + std::string(240, '\x3f');
 }
+
+std::string PlyMeshFile() { return BytesOf(fs::path(LCMSLAM_SOURCE_DIR) / "replay/episodes/ramp.ply"); }
 
 std::string_view TextOf(std::span<const uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -226,6 +241,9 @@ std::vector<Decoder> Decoders() {
       {"KittiCalibration", [] { return std::string("P0: 1 0 0\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 0.3\n"); },
        ReadsBytes([](auto bytes) { (void)ParseKittiCalibration(TextOf(bytes)); })},
       {"Pcd", PcdFile, ReadsBytes([](auto bytes) { (void)ToSweepPoints(ParsePcd(bytes)); })},
+      {"BinaryPcd", BinaryPcdFile, ReadsBytes([](auto bytes) { (void)ToSweepPoints(ParsePcd(bytes)); })},
+      {"CompressedPcd", CompressedPcdFile, ReadsBytes([](auto bytes) { (void)ToSweepPoints(ParsePcd(bytes)); })},
+      {"PlyMesh", PlyMeshFile, ReadsBytes([](auto bytes) { (void)ParsePlyMesh(bytes); })},
       {"Ply", PlyFile, ReadsBytes([](auto bytes) { (void)ToSweepPoints(ParsePly(bytes)); })},
       {"LcmLog", LcmLog, ReadLcmLog},
       {"Tum", TumFile, [](const fs::path& path) { return ReadTrajectory(path).error; }},

@@ -1,5 +1,5 @@
 // mutated_log OUT.lcm COUNT SEED: writes COUNT mutated messages of every type, each type on every channel that a
-// service listens to, 1 ms apart.
+// service listens to, and COUNT mutated chunks of sweeps on LIDAR_3D, 1 ms apart.
 
 #include <array>
 #include <cstdlib>
@@ -31,6 +31,7 @@ void WriteMutated(int count, std::mt19937_64& random, LogWriter& log, std::tuple
   for (int i = 0; i < count; ++i) {
     const std::string channel = kChannels[static_cast<size_t>(i) % kChannels.size()];
     (write(channel, Encode(RandomMessage<Messages>(random))), ...);
+    write("LIDAR_3D", Encode(RandomMessage<point_cloud_chunk_t>(random)));
   }
 }
 
