@@ -1,7 +1,5 @@
 #include "evaluator/evaluate_command.h"
 
-#include <fstream>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -9,6 +7,7 @@
 #include "evaluator/evaluator.pb.h"
 #include "evaluator/evaluator_service.h"
 #include "evaluator/evo_archive.h"
+#include "evaluator/files.h"
 #include "evaluator/result.h"
 #include "evaluator/table.h"
 
@@ -48,17 +47,11 @@ bool IsOnBus(const EvaluateArguments& arguments) {
   return arguments.estimate.empty() || !NamesFile(arguments.estimate);
 }
 
-void WriteText(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw CommandError(ExitCode::kRuntime, fmt::format("{}: cannot be written", path.string()));
-}
-
 // Judges by the thresholds, prints, writes. `json` may be empty.
 ExitCode Report(result::Evaluation& message, const EvaluatorOptions& options, const std::filesystem::path& json) {
   const bool met = AddThresholds(options.thresholds, message);
   fmt::print("{}", FormatTable(message));
-  if (!json.empty()) WriteText(json, ToJson(message));
+  if (!json.empty()) WriteFile(json, ToJson(message));
   return met ? ExitCode::kOk : ExitCode::kThresholdMissed;
 }
 

@@ -4,6 +4,7 @@
 #include "evaluator/convert_command.h"
 #include "evaluator/evaluate_command.h"
 #include "evaluator/evaluator.pb.h"
+#include "evaluator/map/map_command.h"
 #include "evaluator/report/report_command.h"
 
 int main(int argc, char** argv) {
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   AddServiceOptions(app, arguments.service);
   AddEvaluateOptions(app, arguments, flags);
   AddConvertCommand(app, command);
+  AddMapCommand(app, arguments.command, command);
   report::AddReportCommand(app, arguments.command, command);
   return RunCommandLine(app, argc, argv, [&] { return command(); });
 }

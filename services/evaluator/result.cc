@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "bus/errors.h"
+#include "evaluator/files.h"
 #include "geometry/angles.h"
 
 namespace lcmslam {
@@ -104,6 +107,10 @@ result::Summary ToMessage(const Summary& summary, double unit) {
   return message;
 }
 
+Pose3 ToPose(const result::Evaluation::Pose& p) {
+  return {{p.x_m(), p.y_m(), p.z_m()}, Eigen::Quaterniond(p.qw(), p.qx(), p.qy(), p.qz()).normalized()};
+}
+
 void AddSource(const PoseSource& source, result::Evaluation::Source& message) {
   message.set_name(source.name);
   message.set_poses(Count(static_cast<int64_t>(source.trajectory.size())));
@@ -161,13 +168,21 @@ bool AddThresholds(const EvaluatorThresholds& thresholds, result::Evaluation& me
   return met;
 }
 
-std::string ToJson(const result::Evaluation& message) {
+std::string ToJson(const google::protobuf::Message& message) {
   google::protobuf::util::JsonPrintOptions options;
   options.add_whitespace = true;
   options.preserve_proto_field_names = true;
   std::string json;
   const auto status = google::protobuf::util::MessageToJsonString(message, &json, options);
   return status.ok() ? json : "";
+}
+
+void ReadJson(const std::filesystem::path& path, google::protobuf::Message& message) {
+  google::protobuf::util::JsonParseOptions options;
+  options.ignore_unknown_fields = true;
+  if (!google::protobuf::util::JsonStringToMessage(ReadFile(path), &message, options).ok()) {
+    throw CommandError(ExitCode::kBadInput, fmt::format("{}: not the result of an evaluation", path.string()));
+  }
 }
 
 }  // namespace lcmslam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "evaluator/evaluation.pb.h"
@@ -17,6 +18,10 @@ void AddRelations(const RelationErrors& relations, result::Evaluation& message);
 // What was demanded and what was reached; call last. True when all demands are met.
 bool AddThresholds(const EvaluatorThresholds& thresholds, result::Evaluation& message);
 
-std::string ToJson(const result::Evaluation& message);
+Pose3 ToPose(const result::Evaluation::Pose& pose);
+
+std::string ToJson(const google::protobuf::Message& message);
+// Fields of later versions are passed over. Throws CommandError (kBadInput) for a file that is no such message.
+void ReadJson(const std::filesystem::path& path, google::protobuf::Message& message);
 
 }  // namespace lcmslam

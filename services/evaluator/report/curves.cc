@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bus/errors.h"
+#include "evaluator/result.h"
 #include "trajectory/alignment.h"
 #include "trajectory/pose_errors.h"
 #include "trajectory/read.h"
@@ -14,10 +15,6 @@ Trajectory ReadOrThrow(const std::filesystem::path& path) {
   TrajectoryFile file = ReadTrajectory(path);
   if (!file.error.empty()) throw CommandError(ExitCode::kBadInput, file.error);
   return std::move(file.trajectory);
-}
-
-Pose3 ToPose(const result::Evaluation::Pose& p) {
-  return {{p.x_m(), p.y_m(), p.z_m()}, Eigen::Quaterniond(p.qw(), p.qx(), p.qy(), p.qz()).normalized()};
 }
 
 // The estimate where the metrics' alignment and calibration put it.

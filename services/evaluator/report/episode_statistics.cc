@@ -28,11 +28,6 @@ std::vector<double> OverEpisodes(const Group& group, const std::string& system, 
   return values;
 }
 
-double MedianOfKnown(std::vector<double> values) {
-  std::erase_if(values, [](double v) { return std::isnan(v); });
-  return Percentile(values, 0.5);
-}
-
 }  // namespace
 
 EpisodeSummary SummarizeEpisodes(std::vector<double> errors) {
@@ -65,14 +60,18 @@ double Coverage(const Run& run) {
   return static_cast<double>(relations.matched()) / static_cast<double>(relations.matched() + relations.unmatched());
 }
 
-double MedianCoverage(const Group& group, const std::string& system) {
-  return MedianOfKnown(OverEpisodes(group, system, Coverage));
+double MedianOver(const Group& group, const std::string& system, const std::function<double(const Run&)>& value) {
+  std::vector<double> values = OverEpisodes(group, system, value);
+  std::erase_if(values, [](double v) { return std::isnan(v); });
+  return Percentile(values, 0.5);
 }
 
+double MedianCoverage(const Group& group, const std::string& system) { return MedianOver(group, system, Coverage); }
+
 double MedianStepMs(const Group& group, const std::string& system, double (result::Summary::*figure)() const) {
-  return MedianOfKnown(OverEpisodes(group, system, [&](const Run& run) {
+  return MedianOver(group, system, [&](const Run& run) {
     return run.metrics.timing().has_step_ms() ? (run.metrics.timing().step_ms().*figure)() : kNaN;
-  }));
+  });
 }
 
 double MedianOverBound(const Group& group, const std::string& system, double (result::Summary::*error)() const,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,9 @@ std::vector<double> RotationErrors(const Group& group, const std::string& system
 // Share of the poses, or relations, that were judged.
 double Coverage(const Run& run);
 
-// The three below: medians over the episodes of the group that know it, NaN where none does.
+// The four below: medians over the episodes of the group that know it, NaN where none does.
+// Of any figure of a run, NaN where the run does not know it.
+double MedianOver(const Group& group, const std::string& system, const std::function<double(const Run&)>& value);
 double MedianCoverage(const Group& group, const std::string& system);
 // Of one figure of the time of a scan, ms.
 double MedianStepMs(const Group& group, const std::string& system, double (result::Summary::*figure)() const);

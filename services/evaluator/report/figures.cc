@@ -254,15 +254,25 @@ Figure TimingPlot(const std::string& name, const std::string& caption, const Stu
   Plot plot;
   std::string tics;
   for (size_t i = 0; i < study.systems.size(); ++i) {
-    std::vector<double> medians, p95s, maxima;
+    std::vector<double> medians, p95s, maxima, latency_p50s, latency_p99s;
     for (const Episode& episode : group.episodes) {
       const auto& timing = episode.runs.at(study.systems[i]).metrics.timing();
+      if (timing.has_latency_p50_ms()) {
+        latency_p50s.push_back(timing.latency_p50_ms());
+        latency_p99s.push_back(timing.latency_p99_ms());
+      }
       if (!timing.has_step_ms()) continue;
       medians.push_back(timing.step_ms().median());
       p95s.push_back(timing.step_ms().p95());
       maxima.push_back(timing.step_ms().max());
     }
     tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", GnuplotString(study.systems[i]), i + 1);
+    if (!latency_p50s.empty()) {
+      Print(text, "$latency{} << EOD\n{} {:.4g} {:.4g}\nEOD\n", i, static_cast<double>(i) + 1.25,
+            Percentile(latency_p50s, 0.5), *std::ranges::max_element(latency_p99s));
+      plot.Add(fmt::format("$latency{} using 1:2:2:3 with yerrorbars pt 6 ps 1.1 lw 1.6 lc rgb \"{}\" notitle", i,
+                           SystemColour(i)));
+    }
     if (medians.empty()) continue;
     Print(text, "$time{} << EOD\n{} {:.4g} {:.4g} {:.4g}\nEOD\n", i, i + 1, Percentile(medians, 0.5),
           Percentile(p95s, 0.5), *std::ranges::max_element(maxima));

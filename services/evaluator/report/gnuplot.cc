@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bus/errors.h"
+#include "evaluator/files.h"
 #include "evaluator/report/table.h"
 
 namespace lcmslam::report {

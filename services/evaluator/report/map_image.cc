@@ -7,6 +7,7 @@
 
 #include <png.h>
 
+#include "evaluator/files.h"
 #include "evaluator/report/table.h"
 
 namespace lcmslam::report {

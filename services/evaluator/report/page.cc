@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bus/errors.h"
+#include "evaluator/files.h"
 #include "evaluator/report/encodings.h"
 #include "evaluator/report/overview.h"
 #include "evaluator/report/section.h"
@@ -43,6 +44,22 @@ std::string SectionHtml(const Section& section, const std::map<std::string, std:
   return html + fmt::format("<details><summary>All episodes</summary>{}</details>\n", ToHtml(section.episodes));
 }
 
+// What a reader of the numbers must know besides.
+std::vector<std::string> NotesOf(const result::Evaluation& m) {
+  std::vector<std::string> notes(m.notes().begin(), m.notes().end());
+  if (!m.alignment().unobservable().empty()) notes.push_back(m.alignment().unobservable());
+  if (m.has_calibration()) {
+    const auto& c = m.calibration();
+    const auto& arm = c.t_body_marker();
+    notes.push_back(fmt::format("calibrated: time offset {:.5f} s, lever arm ({:.4f}, {:.4f}, {:.4f}) m",
+                                c.time_offset_s(), arm.x_m(), arm.y_m(), arm.z_m()));
+    if (c.unexcited_size() > 0) {
+      notes.push_back(fmt::format("the motion does not excite {}", fmt::join(c.unexcited(), ", ")));
+    }
+  }
+  return notes;
+}
+
 // Alignments, gaps and commands that occur in the study.
 std::string MethodHtml(const Study& study, const PageOptions& options) {
   std::set<std::string> alignments, commands, notes;
@@ -54,7 +71,7 @@ std::string MethodHtml(const Study& study, const PageOptions& options) {
           alignments.insert(
               fmt::format("{} across gaps of up to {:g} s", m.alignment().kind(), m.association().max_gap_s()));
         }
-        if (!m.alignment().unobservable().empty()) notes.insert(episode.name + ": " + m.alignment().unobservable());
+        for (const std::string& note : NotesOf(m)) notes.insert(fmt::format("{}, {}: {}", episode.name, system, note));
         if (m.has_command()) commands.insert(m.command());
       }
     }
@@ -107,8 +124,10 @@ Table InputsTable(const Study& study) {
   for (const Group& group : study.groups) {
     for (const Episode& episode : group.episodes) {
       add(episode.reference);
+      add(episode.bound_file);
       for (const auto& [system, run] : episode.runs) {
-        for (const fs::path& file : {run.metrics_file, run.trajectory, run.map, run.config}) add(file);
+        for (const fs::path& file : {run.metrics_file, run.trajectory, run.map, run.map_quality_file, run.config})
+          add(file);
       }
     }
   }
@@ -159,8 +178,10 @@ void WritePage(const Study& study, const PageOptions& options) {
   for (const Section& section : sections) html += SectionHtml(section, svgs);
   html += MethodHtml(study, options);
   html += ConfigurationsHtml(study);
-  html += "<h2>Inputs</h2>\n<details class=\"hash\"><summary>Files and their SHA-256</summary>" +
-          ToHtml(InputsTable(study)) + "</details>\n</body>\n</html>\n";
+  const Table inputs = InputsTable(study);
+  WriteFile(folder / "inputs.csv", ToCsv(inputs));
+  html += "<h2>Inputs</h2>\n<details class=\"hash\"><summary>Files and their SHA-256</summary>" + ToHtml(inputs) +
+          "</details>\n</body>\n</html>\n";
   WriteFile(options.file, html);
 }
 

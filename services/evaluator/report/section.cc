@@ -11,6 +11,7 @@
 #include "evaluator/report/encodings.h"
 #include "evaluator/report/figures.h"
 #include "evaluator/report/map_image.h"
+#include "evaluator/report/quality_tables.h"
 #include "evaluator/report/speed_table.h"
 #include "evaluator/report/study_tables.h"
 
@@ -100,17 +101,18 @@ void AddSummary(const Study& study, const Group& group, Section& section) {
   section.verdicts = Verdicts(study, group, comparisons);
   if (group.episodes.size() == 1) {
     section.tables.push_back(PoseErrorTable(study, group.episodes.front()));
-    Table timing = TimingTable(study, group.episodes.front());
-    if (!timing.rows.empty()) section.tables.push_back(std::move(timing));
-    return;
+  } else {
+    section.tables.push_back(SystemsTable(study, group));
   }
-  section.tables.push_back(SystemsTable(study, group));
   if (!comparisons.empty()) {
     section.tables.push_back(RatioTable(study, group));
     section.tables.push_back(ComparisonTable(comparisons));
   }
-  Table speed = SpeedTable(study, group);
-  if (!speed.rows.empty()) section.tables.push_back(std::move(speed));
+  section.tables.push_back(MotionTable(study, group));
+  section.tables.push_back(MapTable(study, group));
+  section.tables.push_back(group.episodes.size() == 1 ? TimingTable(study, group.episodes.front())
+                                                      : SpeedTable(study, group));
+  std::erase_if(section.tables, [](const Table& table) { return table.rows.empty(); });
 }
 
 Figure PoseBoxes(const std::string& name, const Study& study, const PooledErrors& pooled) {
@@ -140,9 +142,12 @@ void AddFigures(const Study& study, const Group& group, const PooledErrors& pool
                   is_single ? "Position error of all poses [mm]" : "Position error of all poses of all episodes [mm]",
                   study.systems, pooled.values_m));
   }
-  Figure timing = TimingPlot(
-      name + "_timing",
-      "Time of a scan, wall clock [ms]: dot median, thick line up to p95, thin line up to the largest", study, group);
+  Figure timing =
+      TimingPlot(name + "_timing",
+                 "Time of a scan, wall clock [ms]: dot median, thick line up to p95, thin line up to the largest. "
+                 "Ring: latency from "
+                 "arrival to the end of handling, median, line up to the largest p99 of a second (live runs)",
+                 study, group);
   if (!timing.script.empty()) section.figures.push_back(std::move(timing));
 }
 

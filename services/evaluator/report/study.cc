@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
-#include <google/protobuf/util/json_util.h>
 
 #include "bus/errors.h"
+#include "evaluator/result.h"
 
 namespace lcmslam::report {
 namespace {
@@ -22,18 +20,6 @@ constexpr std::string_view kMetricsSuffix = "_metrics.json";
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 [[noreturn]] void FailInput(const std::string& line) { throw CommandError(ExitCode::kBadInput, line); }
-
-result::Evaluation ReadMetrics(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  google::protobuf::util::JsonParseOptions options;
-  options.ignore_unknown_fields = true;  // of later versions
-  result::Evaluation metrics;
-  const auto status = google::protobuf::util::JsonStringToMessage(text.str(), &metrics, options);
-  if (!file || !status.ok()) FailInput(fmt::format("{}: not the result of an evaluation", path.string()));
-  return metrics;
-}
 
 fs::path IfThere(const fs::path& path) { return fs::is_regular_file(path) ? path : fs::path(); }
 
@@ -62,14 +48,19 @@ fs::path FindReference(const fs::path& folder) {
 
 // No runs when the folder is no episode.
 Episode ReadEpisode(const fs::path& folder, const std::string& name) {
-  Episode episode{.name = name, .folder = folder, .reference = FindReference(folder), .bound = {}, .runs = {}};
-  if (fs::is_regular_file(folder / "bound.csv")) episode.bound = ReadBound(folder / "bound.csv");
+  Episode episode{.name = name,
+                  .folder = folder,
+                  .reference = FindReference(folder),
+                  .bound_file = IfThere(folder / "bound.csv"),
+                  .bound = {},
+                  .runs = {}};
+  if (!episode.bound_file.empty()) episode.bound = ReadBound(episode.bound_file);
   for (const fs::path& path : SortedEntries(folder)) {
     const std::string system = SystemOfMetrics(path);
     if (system.empty()) continue;
     Run& run = episode.runs[system];
     run.has_metrics = true;
-    run.metrics = ReadMetrics(path);
+    ReadJson(path, run.metrics);
     run.metrics_file = path;
   }
   return episode;
@@ -142,6 +133,8 @@ void CompleteRun(const Episode& episode, const std::string& system, const Failur
   run.trajectory = IfThere(episode.folder / (system + "_tum.txt"));
   run.map = IfThere(episode.folder / (system + "_map.pgm"));
   run.config = IfThere(episode.folder / (system + ".pbtxt"));
+  run.map_quality_file = IfThere(episode.folder / (system + "_map_quality.json"));
+  if (!run.map_quality_file.empty()) ReadJson(run.map_quality_file, run.map_quality);
   run.failure = WhyFailed(run, rule);
 }
 

@@ -21,7 +21,8 @@ struct FailureRule {
 struct Run {
   bool has_metrics = false;
   result::Evaluation metrics;
-  std::filesystem::path metrics_file, trajectory, map, config;
+  result::MapQuality map_quality;  // empty where there is none
+  std::filesystem::path metrics_file, trajectory, map, map_quality_file, config;
   std::string failure;  // "" or why it counts as failed
 };
 
@@ -29,7 +30,8 @@ struct Episode {
   std::string name;
   std::filesystem::path folder;
   std::filesystem::path reference;  // trajectory
-  Bound bound;                      // from bound.csv, where there is one
+  std::filesystem::path bound_file;
+  Bound bound;                      // NaN where there is no file
   std::map<std::string, Run> runs;  // by system, all systems of the study
 };
 

@@ -151,16 +151,20 @@ Table TimingTable(const Study& study, const Episode& episode) {
   Table table;
   table.name = "timing";
   table.caption = "Time of a scan, wall clock, and of its stages.";
-  table.header = {"system", "stage", "mean [ms]", "median [ms]", "p95 [ms]", "max [ms]", "n"};
+  table.header = {"system", "stage", "mean [ms]", "median [ms]", "p95 [ms]", "p99 [ms]", "max [ms]", "n"};
   table.text_columns = 2;
   const auto add = [&](const std::string& system, const std::string& stage, const result::Summary& s) {
-    table.rows.push_back({system, stage, Number(s.mean()), Number(s.median()), Number(s.p95()), Number(s.max()),
-                          std::to_string(s.count())});
+    table.rows.push_back({system, stage, Number(s.mean()), Number(s.median()), Number(s.p95()), Number(s.p99()),
+                          Number(s.max()), std::to_string(s.count())});
   };
   for (const std::string& system : study.systems) {
     const result::Timing& timing = episode.runs.at(system).metrics.timing();
     if (timing.has_step_ms()) add(system, "whole scan", timing.step_ms());
     for (const auto& stage : timing.stages()) add(system, stage.name(), stage.ms());
+    if (timing.has_latency_p50_ms()) {
+      table.rows.push_back({system, "latency, arrival to end", "-", Number(timing.latency_p50_ms()), "-",
+                            Number(timing.latency_p99_ms()), "-", "-"});
+    }
   }
   return table;
 }

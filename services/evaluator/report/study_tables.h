@@ -27,7 +27,7 @@ Table ComparisonTable(const std::vector<Comparison>& comparisons);
 Table EpisodesTable(const Study& study, const Group& group);
 // All errors of one episode over its poses.
 Table PoseErrorTable(const Study& study, const Episode& episode);
-// Time of a scan and of its stages in one episode; no rows where it is not known.
+// Time of a scan and of its stages, and latency, in one episode; no rows where it is not known.
 Table TimingTable(const Study& study, const Episode& episode);
 // One sentence a system that it is compared with.
 std::vector<std::string> Verdicts(const Study& study, const Group& group, const std::vector<Comparison>& comparisons);

@@ -1,12 +1,8 @@
 #include "evaluator/report/table.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
-
-#include "bus/errors.h"
 
 namespace lcmslam::report {
 namespace {
@@ -91,20 +87,6 @@ std::string EscapeHtml(std::string_view text) {
     }
   }
   return escaped;
-}
-
-void WriteFile(const std::filesystem::path& path, std::string_view bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file << bytes;
-  if (!file.flush()) throw CommandError(ExitCode::kRuntime, fmt::format("{}: cannot be written", path.string()));
-}
-
-std::string ReadFile(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  if (!file) throw CommandError(ExitCode::kBadInput, fmt::format("{}: cannot be read", path.string()));
-  return bytes.str();
 }
 
 }  // namespace lcmslam::report

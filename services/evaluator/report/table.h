@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,10 +21,5 @@ std::string ToText(const Table& table);
 
 // & < > " as entities.
 std::string EscapeHtml(std::string_view text);
-
-// Writes a file or throws CommandError (kRuntime).
-void WriteFile(const std::filesystem::path& path, std::string_view bytes);
-// The bytes of a file; CommandError (kBadInput) when it cannot be read.
-std::string ReadFile(const std::filesystem::path& path);
 
 }  // namespace lcmslam::report

@@ -8,11 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "bus/errors.h"
+#include "evaluator/files.h"
 #include "evaluator/report/encodings.h"
 #include "evaluator/report/map_image.h"
 #include "evaluator/report/numbers.h"
 #include "evaluator/report/overview.h"
 #include "evaluator/report/page.h"
+#include "evaluator/report/quality_tables.h"
 #include "evaluator/report/speed_table.h"
 #include "evaluator/report/study.h"
 #include "evaluator/report/study_tables.h"
@@ -182,6 +184,39 @@ TEST_F(Report, ErrorsAreSetAgainstTheBound) {
   const Table systems = SystemsTable(study, study.groups[0]);
   EXPECT_EQ(systems.header[10], "RMSE / bound");
   EXPECT_EQ(systems.rows[0][10], "1.98");
+}
+
+TEST_F(Report, MapsMotionAndNotesStandOnThePage) {
+  for (const char* episode : {"e/1", "e/2", "e/3"}) {
+    WriteRun(episode, "a", 0.007);
+    Write(std::string(episode) + "/a_map_quality.json",
+          R"({"surface_error_m": {"mean": 0.004, "p95": 0.011}, "wall_thickness_m": {"median": 0.0123},
+              "completeness": [{"within_m": 0.02, "share": 0.5}, {"within_m": 0.05, "share": 0.75},
+                               {"within_m": 0.1, "share": 0.99}]})");
+  }
+  result::Evaluation noted;
+  ReadJson(folder_ / "e/2/a_metrics.json", noted);
+  noted.add_notes("12 poses in gaps of the reference");
+  noted.mutable_calibration()->set_time_offset_s(0.037);
+  noted.mutable_calibration()->add_unexcited("lever arm z");
+  noted.mutable_timing()->set_latency_p50_ms(1.5);
+  noted.mutable_timing()->set_latency_p99_ms(7.5);
+  Write("e/2/a_metrics.json", ToJson(noted));
+  const Study study = LoadStudy({folder_ / "e"}, {});
+  EXPECT_THAT(MapTable(study, study.groups[0]).rows,
+              ElementsAre(ElementsAre("a", "4.00", "11.0", "50.0", "75.0", "99.0", "12.3")));
+  const Table motion = MotionTable(study, study.groups[0]);
+  ASSERT_EQ(motion.rows.size(), 8u) << "seven steps and the drift; no KITTI segments on so short a run";
+  EXPECT_THAT(motion.rows.back(), Contains("1 m, drift from first to last pose"));
+  EXPECT_THAT(TimingTable(study, study.groups[0].episodes[1]).rows,
+              Contains(ElementsAre("a", "latency, arrival to end", "-", "1.50", "-", "7.50", "-", "-")));
+  WritePage(study, {.title = "t", .command = "c", .file = folder_ / "out.html"});
+  EXPECT_THAT(ReadPage(), HasSubstr("2, a: 12 poses in gaps of the reference"));
+  EXPECT_THAT(ReadPage(), HasSubstr("2, a: the motion does not excite lever arm z"));
+  EXPECT_THAT(ReadPage(), HasSubstr("<figure id=\"group1_timing\"><svg")) << "latency";
+  for (const char* name : {"group1_maps.csv", "group1_motion.csv", "inputs.csv"}) {
+    EXPECT_TRUE(fs::file_size(folder_ / "out_files" / name) > 0) << name;
+  }
 }
 
 TEST_F(Report, BadBoundsAreNamed) {

@@ -45,7 +45,7 @@ const std::vector<Guarded>& GuardedHeaders() {
       {"libpcap", std::regex("pcap.*"), {"lib/sensors"}},
       {"ROS", std::regex("(rosbag|ros|tf|tf2|[a-z]+_msgs)/.*"), {"lib/sensors"}},
       {"OctoMap", std::regex("octomap/.*|octomath/.*"), {"lib/octo3d"}},
-      {"nanoflann", std::regex("nanoflann.*"), {"lib/baselines"}},
+      {"nanoflann", std::regex("nanoflann.*"), {"lib/baselines", "lib/trajectory"}},
       {"Embree", std::regex("embree3/.*"), {"lib/simulation"}},
       {"Ceres", std::regex("ceres/.*"), {"lib/refine", "lib/trajectory"}},
   };
