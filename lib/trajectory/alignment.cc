@@ -11,28 +11,6 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kNames = {"none", "first", "yaw", "se2", "se3"};
 
-struct Moments {
-  Eigen::Vector3d mean_estimate = Eigen::Vector3d::Zero();
-  Eigen::Vector3d mean_reference = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d positions = Eigen::Matrix3d::Zero();     // mean of (p_ref - mean) (p_est - mean)^T
-  Eigen::Matrix3d orientations = Eigen::Matrix3d::Zero();  // mean of R_ref R_est^T
-};
-
-Moments MomentsOf(std::span<const PosePair> pairs) {
-  Moments m;
-  const auto n = static_cast<double>(pairs.size());
-  for (const PosePair& pair : pairs) {
-    m.mean_estimate += pair.estimate.translation / n;
-    m.mean_reference += pair.reference.translation / n;
-  }
-  for (const PosePair& pair : pairs) {
-    m.positions +=
-        (pair.reference.translation - m.mean_reference) * (pair.estimate.translation - m.mean_estimate).transpose() / n;
-    m.orientations += (pair.reference.rotation * pair.estimate.rotation.conjugate()).toRotationMatrix() / n;
-  }
-  return m;
-}
-
 Eigen::JacobiSVD<Eigen::Matrix3d> Svd(const Eigen::Matrix3d& matrix) {
   return Eigen::JacobiSVD<Eigen::Matrix3d>(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
 }
@@ -50,25 +28,26 @@ TurnResult TurnAbout(const Eigen::Vector3d& axis, const Eigen::Matrix3d& start, 
   return {Eigen::AngleAxisd(std::atan2(sine, cosine), axis).toRotationMatrix() * start, std::hypot(sine, cosine)};
 }
 
-Eigen::Matrix3d SolveYaw(const Moments& m, double min_spread_m, std::vector<Eigen::Vector3d>& unobservable_axes) {
+Eigen::Matrix3d SolveYaw(const PairMoments& m, double min_spread_m, std::vector<Eigen::Vector3d>& unobservable_axes) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  const TurnResult turn = TurnAbout(up, Eigen::Matrix3d::Identity(), m.positions);
+  const TurnResult turn = TurnAbout(up, Eigen::Matrix3d::Identity(), m.positions());
   if (std::sqrt(turn.strength) >= min_spread_m) return turn.rotation;
   unobservable_axes = {up};
-  return TurnAbout(up, Eigen::Matrix3d::Identity(), m.orientations).rotation;
+  return TurnAbout(up, Eigen::Matrix3d::Identity(), m.orientations()).rotation;
 }
 
-Eigen::Matrix3d SolveRotation(const Moments& m, double min_spread_m, std::vector<Eigen::Vector3d>& unobservable_axes) {
-  const auto svd = Svd(m.positions);
+Eigen::Matrix3d SolveRotation(const PairMoments& m, double min_spread_m,
+                              std::vector<Eigen::Vector3d>& unobservable_axes) {
+  const auto svd = Svd(m.positions());
   const Eigen::Vector3d spread_m = svd.singularValues().cwiseSqrt();
-  if (spread_m[1] >= min_spread_m) return NearestRotation(m.positions);
+  if (spread_m[1] >= min_spread_m) return NearestRotation(m.positions());
   if (spread_m[0] < min_spread_m) {
     unobservable_axes = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
-    return NearestRotation(m.orientations);
+    return NearestRotation(m.orientations());
   }
   const Eigen::Vector3d direction = svd.matrixU().col(0);
   unobservable_axes = {direction};
-  return TurnAbout(direction, NearestRotation(m.positions), m.orientations).rotation;
+  return TurnAbout(direction, NearestRotation(m.positions()), m.orientations()).rotation;
 }
 
 }  // namespace
@@ -92,23 +71,29 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& correlation) {
   return svd.matrixU() * Eigen::Vector3d(1.0, 1.0, handedness).asDiagonal() * svd.matrixV().transpose();
 }
 
-Alignment Align(std::span<const PosePair> pairs, AlignmentKind kind, const AlignmentOptions& options) {
-  Alignment result;
-  result.kind = kind;
-  if (pairs.empty()) return result;
-  result.status = AlignmentStatus::kOk;
+Alignment Align(const PairMoments& moments, const PosePair& first, AlignmentKind kind,
+                const AlignmentOptions& options) {
+  Alignment result{.status = AlignmentStatus::kOk, .kind = kind, .T_world_map = {}};
   if (kind == AlignmentKind::kNone) return result;
   if (kind == AlignmentKind::kFirst) {
-    result.T_world_map = pairs.front().reference * pairs.front().estimate.inverse();
+    result.T_world_map = first.reference * first.estimate.inverse();
     return result;
   }
-  const Moments moments = MomentsOf(pairs);
   const auto solve = kind == AlignmentKind::kSe3 ? SolveRotation : SolveYaw;
   const Eigen::Matrix3d rotation = solve(moments, options.min_spread_m, result.unobservable_axes);
   result.T_world_map.rotation = Eigen::Quaterniond(rotation).normalized();
-  result.T_world_map.translation = moments.mean_reference - result.T_world_map.rotation * moments.mean_estimate;
+  result.T_world_map.translation = moments.mean_reference() - result.T_world_map.rotation * moments.mean_estimate();
   if (kind == AlignmentKind::kSe2) result.T_world_map.translation.z() = 0.0;
   return result;
+}
+
+Alignment Align(std::span<const PosePair> pairs, AlignmentKind kind, const AlignmentOptions& options) {
+  if (pairs.empty()) return {.status = AlignmentStatus::kNoPairs, .kind = kind, .T_world_map = {}};
+  PairMoments moments;
+  if (kind != AlignmentKind::kNone && kind != AlignmentKind::kFirst) {
+    for (const PosePair& pair : pairs) moments.Add(pair);
+  }
+  return Align(moments, pairs.front(), kind, options);
 }
 
 void Apply(const Pose3& T_world_map, std::span<PosePair> pairs) {

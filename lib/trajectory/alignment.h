@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trajectory/association.h"
+#include "trajectory/pair_moments.h"
 
 namespace lcmslam {
 
@@ -39,6 +40,9 @@ struct Alignment {
 // The rigid transform, without scale, that minimises sum |p_reference - T_world_map p_estimate|^2 in closed form
 // (Umeyama 1991; in yaw, Horn's planar case). Poses are finite. Pure.
 [[nodiscard]] Alignment Align(std::span<const PosePair> pairs, AlignmentKind kind,
+                              const AlignmentOptions& options = {});
+// The same from the moments of all pairs, one or more, and the first of them.
+[[nodiscard]] Alignment Align(const PairMoments& moments, const PosePair& first, AlignmentKind kind,
                               const AlignmentOptions& options = {});
 
 // The rotation R that maximises trace(R^T correlation) (Kabsch 1976; Umeyama 1991, eq. 40-43): of a sum of rotations

@@ -12,36 +12,37 @@ ErrorSummary SummarizeErrors(PoseErrors errors) {
   return {Summarize(std::move(errors.translation_m)), Summarize(std::move(errors.rotation_rad))};
 }
 
-void MeasureWholeRun(Evaluation& result) {
+void MeasureWholeRun(std::span<const double> path_m, Evaluation& result) {
   const std::span<const PosePair> pairs = result.association.pairs;
   result.absolute_errors = AbsoluteErrors(pairs);
   result.absolute = SummarizeErrors(result.absolute_errors);
-  KittiErrors kitti = KittiSegmentErrors(pairs);
+  KittiErrors kitti = KittiSegmentErrors(pairs, path_m);
   result.kitti_translation_ratio = Summarize(std::move(kitti.translation_ratio));
   result.kitti_rotation_rad_per_m = Summarize(std::move(kitti.rotation_rad_per_m));
-  result.drift = DriftPerMetre(pairs);
+  result.drift = DriftPerMetre(pairs, path_m);
   result.duration_s = static_cast<double>(pairs.back().utime - pairs.front().utime) * 1e-6;
 }
 
-using RelativeErrors = PoseErrors (*)(std::span<const PosePair>, double step);
-
-std::vector<RelativeErrorSummary> MeasureSteps(const Evaluation& result, const std::vector<double>& steps,
-                                               RelativeErrors errors) {
-  std::vector<RelativeErrorSummary> summaries;
-  for (const double step : steps) {
-    summaries.push_back({step, SummarizeErrors(errors(result.association.pairs, step))});
-  }
-  return summaries;
+// errors_of(step): the relative errors over one step. In a thread of its own.
+template <typename ErrorsOf>
+std::future<std::vector<RelativeErrorSummary>> MeasureSteps(const std::vector<double>& steps, ErrorsOf errors_of) {
+  return std::async(std::launch::async, [&steps, errors_of] {
+    std::vector<RelativeErrorSummary> summaries;
+    for (const double step : steps) summaries.push_back({step, SummarizeErrors(errors_of(step))});
+    return summaries;
+  });
 }
 
 // The three parts are independent and take about as long, so each has a thread.
 void Measure(const EvaluationOptions& options, Evaluation& result) {
-  const auto start = [&](const std::vector<double>& steps, RelativeErrors errors) {
-    return std::async(std::launch::async, [&result, &steps, errors] { return MeasureSteps(result, steps, errors); });
-  };
-  auto over_time = start(options.rpe_steps_s, RelativeErrorsOverTime);
-  auto over_distance = start(options.rpe_steps_m, RelativeErrorsOverDistance);
-  MeasureWholeRun(result);
+  const std::span<const PosePair> pairs = result.association.pairs;
+  const std::vector<double> path_m = PathLengths(pairs);
+  auto over_time =
+      MeasureSteps(options.rpe_steps_s, [pairs](double step_s) { return RelativeErrorsOverTime(pairs, step_s); });
+  auto over_distance = MeasureSteps(options.rpe_steps_m, [pairs, &path_m](double step_m) {
+    return RelativeErrorsOverDistance(pairs, path_m, step_m);
+  });
+  MeasureWholeRun(path_m, result);
   result.relative_over_time = over_time.get();
   result.relative_over_distance = over_distance.get();
   result.status = EvaluationStatus::kOk;

@@ -55,6 +55,15 @@ PoseErrors AbsoluteErrors(std::span<const PosePair> pairs) {
   return errors;
 }
 
+std::vector<double> PathLengths(std::span<const PosePair> pairs, Pose3 PosePair::*side) {
+  std::vector<double> lengths_m(pairs.size());
+  for (size_t i = 1; i < pairs.size(); ++i) {
+    const Eigen::Vector3d step_m = (pairs[i].*side).translation - (pairs[i - 1].*side).translation;
+    lengths_m[i] = lengths_m[i - 1] + step_m.norm();
+  }
+  return lengths_m;
+}
+
 PoseErrors RelativeErrorsOverTime(std::span<const PosePair> pairs, double step_s) {
   std::vector<double> times_us(pairs.size());  // whole numbers, so that ties are exact
   std::ranges::transform(pairs, times_us.begin(),
@@ -62,40 +71,32 @@ PoseErrors RelativeErrorsOverTime(std::span<const PosePair> pairs, double step_s
   return RelativeErrors(pairs, times_us, std::round(step_s * 1e6));
 }
 
-PoseErrors RelativeErrorsOverDistance(std::span<const PosePair> pairs, double step_m) {
-  return RelativeErrors(pairs, PathLengths(pairs), step_m);
+PoseErrors RelativeErrorsOverDistance(std::span<const PosePair> pairs, std::span<const double> path_m, double step_m) {
+  return RelativeErrors(pairs, path_m, step_m);
 }
 
-std::vector<double> PathLengths(std::span<const PosePair> pairs) {
-  std::vector<double> lengths(pairs.size());
-  for (size_t i = 1; i < pairs.size(); ++i) {
-    lengths[i] = lengths[i - 1] + (pairs[i].reference.translation - pairs[i - 1].reference.translation).norm();
-  }
-  return lengths;
-}
-
-KittiErrors KittiSegmentErrors(std::span<const PosePair> pairs) {
+KittiErrors KittiSegmentErrors(std::span<const PosePair> pairs, std::span<const double> path_m) {
   constexpr std::array<double, 8> kLengths_m = {100, 200, 300, 400, 500, 600, 700, 800};
   constexpr size_t kStride = 10;
-  const std::vector<double> position = PathLengths(pairs);
+  std::array<size_t, kLengths_m.size()> lasts = {};
   PoseErrors errors;
   for (size_t first = 0; first < pairs.size(); first += kStride) {
-    for (const double length_m : kLengths_m) {
-      const auto last = std::upper_bound(position.begin(), position.end(), position[first] + length_m);
-      if (last == position.end()) break;
-      AddRelative(pairs[first], pairs[static_cast<size_t>(last - position.begin())], errors);
-      errors.translation_m.back() /= length_m;
-      errors.rotation_rad.back() /= length_m;
+    for (size_t k = 0; k < kLengths_m.size(); ++k) {
+      size_t& last = lasts[k];
+      while (last < path_m.size() && path_m[last] <= path_m[first] + kLengths_m[k]) ++last;
+      if (last == path_m.size()) break;
+      AddRelative(pairs[first], pairs[last], errors);
+      errors.translation_m.back() /= kLengths_m[k];
+      errors.rotation_rad.back() /= kLengths_m[k];
     }
   }
   return {std::move(errors.translation_m), std::move(errors.rotation_rad)};
 }
 
-Drift DriftPerMetre(std::span<const PosePair> pairs) {
+Drift DriftPerMetre(std::span<const PosePair> pairs, std::span<const double> path_m) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  Drift drift{.path_length_m = pairs.empty() ? 0.0 : PathLengths(pairs).back(),
-              .translation_m_per_m = kNaN,
-              .rotation_rad_per_m = kNaN};
+  Drift drift{
+      .path_length_m = path_m.empty() ? 0.0 : path_m.back(), .translation_m_per_m = kNaN, .rotation_rad_per_m = kNaN};
   if (drift.path_length_m <= 0.0) return drift;
   PoseErrors whole;
   AddRelative(pairs.front(), pairs.back(), whole);

@@ -137,6 +137,8 @@ class KittiStamps {
     if (auto* bad = std::get_if<BadField>(&stamp)) return BadField{lines_->Complain(bad->reason)};
     return stamp;
   }
+  // About the stamp that Next() gave: those of a file may be wrong, those counted up are not.
+  std::string Complain(const std::string& reason) const { return lines_->Complain(reason); }
 
  private:
   std::optional<TextLines> lines_;
@@ -164,8 +166,10 @@ std::string ReadInto(Trajectory& trajectory, TextLines& lines, const ReadOptions
     const int64_t utime = std::get<int64_t>(stamp);
     if (!trajectory.empty() && utime <= trajectory.back().utime) {
       const double step_s = static_cast<double>(utime - trajectory.back().utime) * 1e-6;
-      return lines.Complain(utime == trajectory.back().utime ? "stamp repeats that of the pose before"
-                                                             : fmt::format("stamp steps back by {:.6f} s", -step_s));
+      const std::string reason = utime == trajectory.back().utime
+                                     ? "stamp repeats that of the pose before"
+                                     : fmt::format("stamp steps back by {:.6f} s", -step_s);
+      return format->parse_stamp ? lines.Complain(reason) : kitti_stamps.Complain(reason);
     }
     const auto pose = format->parse_pose(lines.fields());
     if (const auto* bad = std::get_if<BadField>(&pose)) return lines.Complain(bad->reason);

@@ -12,6 +12,7 @@ namespace lcmslam {
 namespace {
 
 constexpr size_t kMaxLineBytes = 65536;  // longer "lines" are binary rubbish
+constexpr size_t kBlockBytes = 1 << 20;  // read at once
 
 bool IsSeparator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
 
@@ -32,8 +33,9 @@ bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
 
-TextLines::TextLines(const std::filesystem::path& path)
-    : path_(path), file_(path, std::ios::binary), buffer_(kMaxLineBytes) {
+TextLines::TextLines(const std::filesystem::path& path) : path_(path), block_(kBlockBytes), buffer_(kMaxLineBytes) {
+  file_.rdbuf()->pubsetbuf(block_.data(), static_cast<std::streamsize>(block_.size()));  // before it is opened
+  file_.open(path, std::ios::binary);
   if (!file_) error_ = fmt::format("{}: cannot open: {}", path_.string(), std::strerror(errno));
 }
 
@@ -41,7 +43,8 @@ bool TextLines::Next() {
   if (!error_.empty()) return false;
   while (file_.getline(buffer_.data(), static_cast<std::streamsize>(buffer_.size()))) {
     ++number_;
-    line_ = buffer_.data();
+    const auto end_of_line = file_.eof() ? 0 : 1;
+    line_ = {buffer_.data(), static_cast<size_t>(file_.gcount() - end_of_line)};
     Split(line_, fields_);
     if (!fields_.empty() && !fields_.front().starts_with('#')) return true;
   }

@@ -33,9 +33,10 @@ class TextLines {
 
  private:
   std::filesystem::path path_;
+  std::vector<char> block_;  // of the file, as read from the disk
   std::ifstream file_;
-  std::vector<char> buffer_;
-  std::string_view line_;  // in buffer_
+  std::vector<char> buffer_;  // one line
+  std::string_view line_;     // in buffer_
   std::vector<std::string_view> fields_;
   int64_t number_ = 0;
   std::string error_;

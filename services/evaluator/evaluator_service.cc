@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <lcmslam/evaluation_t.hpp>
 
+#include "bus/errors.h"
 #include "bus/messages.h"
 #include "geometry/utime.h"
 
@@ -24,17 +25,16 @@ double OrZero(double value) { return std::isfinite(value) ? value : 0.0; }
 
 evaluation_t ToMessage(const OnlineEvaluation& online) {
   const OnlineEvaluation::Result result = online.ErrorSoFar();
-  const Association& association = online.association();
   evaluation_t message{};
   message.utime = result.utime;
-  message.matched = static_cast<int64_t>(association.pairs.size());
-  message.unmatched = association.unmatched();
+  message.matched = result.matched;
+  message.unmatched = result.unmatched;
   message.ate_mean = OrZero(result.error.translation_m.mean);
   message.ate_rmse = OrZero(result.error.translation_m.rmse);
   message.ate_max = OrZero(result.error.translation_m.max);
   message.rotation_mean = OrZero(result.error.rotation_rad.mean);
   message.latest_error = result.latest_error_m;
-  message.coverage = association.coverage();
+  message.coverage = result.coverage;
   const Pose3& T = result.alignment.T_world_map;
   std::copy_n(T.translation.data(), 3, message.alignment_pos);
   message.alignment_quat[0] = T.rotation.w();
@@ -62,7 +62,10 @@ Handled EvaluatorService::OnReference(const Event& event) {
   ++reference_poses_;
   recent_reference_.push_back(*pose);
   if (recent_reference_.size() > kRecentPoses) recent_reference_.pop_front();
-  for (auto& [channel, estimate] : estimates_) estimate.online.AddReference(*pose);
+  for (auto& [channel, estimate] : estimates_) {
+    estimate.online.AddReference(*pose);
+    StorePairs(estimate);
+  }
   return Handled::kAccepted;
 }
 
@@ -71,13 +74,23 @@ Handled EvaluatorService::OnEstimate(const Event& event) {
   const auto pose = DecodeReasonablePose(event);
   if (!pose) return Handled::kRefused;
   context_.health().NoteInput(event.channel, pose->utime);
-  auto [entry, is_new] = estimates_.try_emplace(event.channel, Estimate{OnlineEvaluation(options_.evaluation)});
+  auto [entry, is_new] = estimates_.try_emplace(event.channel, options_.evaluation);
+  Estimate& estimate = entry->second;
   if (is_new) {
-    for (const StampedPose& reference : recent_reference_) entry->second.online.AddReference(reference);
+    for (const StampedPose& reference : recent_reference_) estimate.online.AddReference(reference);
   }
-  ++entry->second.poses;
-  entry->second.online.AddEstimate(*pose);
+  ++estimate.poses;
+  estimate.online.AddEstimate(*pose);
+  StorePairs(estimate);
   return Handled::kAccepted;
+}
+
+void EvaluatorService::StorePairs(Estimate& estimate) {
+  if (estimate.segment != estimate.online.segment()) {
+    estimate.segment = estimate.online.segment();
+    estimate.pairs.Clear();
+  }
+  estimate.pairs.Add(estimate.online.TakePairs());
 }
 
 void EvaluatorService::PublishErrors() {
@@ -94,9 +107,14 @@ void EvaluatorService::PublishErrors() {
 
 void EvaluatorService::Finish() {
   PublishErrors();
-  for (const auto& [channel, estimate] : estimates_) {
+  for (auto& [channel, estimate] : estimates_) {
+    std::optional<std::vector<PosePair>> pairs = estimate.pairs.ReadAll();
+    if (!pairs) {
+      throw CommandError(ExitCode::kRuntime, channel + ": the temporary file for its poses could not be written");
+    }
     const OnlineEvaluation& online = estimate.online;
-    Evaluation evaluation = EvaluatePairs(online.FinalAssociation(), online.alignment_kind(), options_.evaluation);
+    Evaluation evaluation =
+        EvaluatePairs(online.FinalAssociation(std::move(*pairs)), online.alignment_kind(), options_.evaluation);
     report_({channel, reference_channel_, estimate.poses, reference_poses_, std::move(evaluation), online.Describe()});
   }
 }

@@ -7,6 +7,7 @@
 
 #include "bus/service.h"
 #include "evaluator/options.h"
+#include "evaluator/pair_file.h"
 #include "trajectory/online_evaluation.h"
 
 namespace lcmslam {
@@ -31,13 +32,18 @@ class EvaluatorService : public Service {
 
  private:
   struct Estimate {
+    explicit Estimate(const EvaluationOptions& options) : online(options) {}
+
     OnlineEvaluation online;
     int64_t poses = 0;
+    PairFile pairs;  // of segment
+    int segment = 1;
   };
 
   Handled OnReference(const Event& event);
   Handled OnEstimate(const Event& event);
   void PublishErrors();
+  void StorePairs(Estimate& estimate);
 
   EvaluatorOptions options_;
   ServiceContext& context_;

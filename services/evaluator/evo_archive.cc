@@ -81,20 +81,16 @@ std::string Npy(const Values& values) {
 
 void AddArrays(const Evaluation& evaluation, Entries& entries) {
   const std::vector<PosePair>& pairs = evaluation.association.pairs;
-  Values timestamps_s, since_start_s, estimate_lengths_m;
-  double length_m = 0.0;
+  Values timestamps_s, since_start_s;
   for (const PosePair& pair : pairs) {
     timestamps_s.push_back(static_cast<double>(pair.utime) * 1e-6);
     since_start_s.push_back(static_cast<double>(pair.utime - pairs.front().utime) * 1e-6);
-    const PosePair& before = pairs[estimate_lengths_m.empty() ? 0 : estimate_lengths_m.size() - 1];
-    length_m += (pair.estimate.translation - before.estimate.translation).norm();
-    estimate_lengths_m.push_back(length_m);
   }
   entries["error_array.npy"] = Npy(evaluation.absolute_errors.translation_m);
   entries["timestamps.npy"] = Npy(timestamps_s);
   entries["seconds_from_start.npy"] = Npy(since_start_s);
   entries["distances_from_start.npy"] = Npy(PathLengths(pairs));
-  entries["distances.npy"] = Npy(estimate_lengths_m);
+  entries["distances.npy"] = Npy(PathLengths(pairs, &PosePair::estimate));
 }
 
 void AddTrajectories(const Evaluation& evaluation, Entries& entries) {

@@ -52,9 +52,15 @@ class ChannelPoses {
   }
 
   PoseSource Take() {
-    std::erase_if(by_channel_, [](const auto& entry) { return entry.second.trajectory.empty(); });
+    int64_t refused = 0;
+    std::erase_if(by_channel_, [&](const auto& entry) {
+      const bool is_empty = entry.second.trajectory.empty();
+      if (is_empty) refused += entry.second.refused;
+      return is_empty;
+    });
     if (by_channel_.empty()) {
-      throw CommandError(ExitCode::kNothingMatched, fmt::format("{}: no poses on {}", log_.string(), pattern_));
+      const std::string why = refused == 0 ? "" : fmt::format(": {} malformed", refused);
+      throw CommandError(ExitCode::kNothingMatched, fmt::format("{}: no poses on {}{}", log_.string(), pattern_, why));
     }
     auto& [channel, source] = *by_channel_.begin();
     if (by_channel_.size() > 1) {

@@ -45,11 +45,15 @@ Points SurfaceOfGrid(const std::filesystem::path& path) {
 Points PointsOfPly(const std::filesystem::path& path) {
   const auto file = OpenInput(path);
   const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(*file), {}};
-  Points points;
-  for (const SweepPoint& point : ToSweepPoints(ParsePly(bytes))) {
-    if (point.IsFinite()) points.emplace_back(point.x, point.y, point.z);
+  try {
+    Points points;
+    for (const SweepPoint& point : ToSweepPoints(ParsePly(bytes))) {
+      if (point.IsFinite()) points.emplace_back(point.x, point.y, point.z);
+    }
+    return points;
+  } catch (const BadInput& bad) {  // which knows only the bytes
+    throw BadInput(fmt::format("{}: {}", path.string(), bad.what()));
   }
-  return points;
 }
 
 Points Read(const std::filesystem::path& path) {

@@ -1,25 +1,18 @@
-#include "evaluator/convert_command.h"
-
 #include <cmath>
 #include <fstream>
 
-#include <CLI/CLI.hpp>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <lcmslam/pose_t.hpp>
 
 #include "bus/log_writer.h"
 #include "bus/messages.h"
-#include "common/command_line.h"
 #include "support/temporary_file.h"
 #include "trajectory/read.h"
 #include "trajectory/write.h"
+#include "unit/evaluator/run_evaluator.h"
 
 namespace lcmslam {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
 
 constexpr int64_t kStart = 1'600'000'000'000'000;
 
@@ -41,24 +34,9 @@ void ExpectSame(const Trajectory& a, const Trajectory& b) {
   }
 }
 
-struct Outcome {
-  int code = 0;
-  std::string error;
-};
-
-Outcome Convert(std::vector<std::string> arguments) {
-  CLI::App app("test", "evaluator");
-  std::function<ExitCode()> command;
-  AddConvertCommand(app, command);
-  arguments.insert(arguments.begin(), {"evaluator", "convert"});
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  ::testing::internal::CaptureStdout();
-  ::testing::internal::CaptureStderr();
-  const int code = RunCommandLine(app, static_cast<int>(argv.size()), argv.data(), [&] { return command(); });
-  std::fflush(stdout);
-  (void)::testing::internal::GetCapturedStdout();
-  return {code, ::testing::internal::GetCapturedStderr()};
+testing::Outcome Convert(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "convert");
+  return testing::RunEvaluator(arguments);
 }
 
 TEST(Convert, EveryFormatToEveryOther) {
@@ -92,15 +70,11 @@ TEST(Convert, PosesOfALog) {
 
 TEST(Convert, SaysInOneLineWhatIsWrong) {
   const TemporaryFile nan("1 nan 0 0 0 0 0 1\n", ".tum"), good("1 0 0 0 0 0 0 1\n", ".tum");
-  const auto expect = [](const Outcome& outcome, int code, const std::string& error) {
-    EXPECT_EQ(outcome.code, code);
-    EXPECT_THAT(outcome.error, HasSubstr(error));
-    EXPECT_THAT(outcome.error, MatchesRegex("evaluator: [^\n]*\n"));
-  };
   const TemporaryFile out;
-  expect(Convert({nan.path(), out.path()}), 3, nan.path().string() + ":1: not a finite number: 'nan'");
-  expect(Convert({good.path(), "/nowhere/x.tum"}), 1, "/nowhere/x.tum: cannot write");
-  expect(Convert({good.path(), "x", "--to", "matlab"}), 2, "matlab not in");
+  testing::ExpectRefused({"convert", nan.path(), out.path()}, 3,
+                         nan.path().string() + ":1: not a finite number: 'nan'");
+  testing::ExpectRefused({"convert", good.path(), "/nowhere/x.tum"}, 1, "/nowhere/x.tum: cannot write");
+  testing::ExpectRefused({"convert", good.path(), "x", "--to", "matlab"}, 2, "matlab not in");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 #include "bus/errors.h"
 #include "evaluator/evaluation.pb.h"
-#include "evaluator/report/table.h"
+#include "evaluator/files.h"
 #include "support/temporary_file.h"
 #include "trajectory/read.h"
 
@@ -109,7 +109,7 @@ TEST(EvoArchive, TrajectoriesAreTumAndTheSameBytesTwice) {
   const TemporaryFile one({}, ".zip"), two({}, ".zip");
   WriteEvoArchive(SomeEvaluation(), SomeMessage(), one.path());
   WriteEvoArchive(SomeEvaluation(), SomeMessage(), two.path());
-  EXPECT_EQ(report::ReadFile(one.path()), report::ReadFile(two.path()));
+  EXPECT_EQ(ReadFile(one.path()), ReadFile(two.path()));
   const TemporaryFile estimate(Unzip(one.path()).at("estimate.tum"), ".tum");
   const TrajectoryFile read = ReadTrajectory(estimate.path());
   ASSERT_EQ(read.error, "");

@@ -1,8 +1,5 @@
-#include "evaluator/map/map_command.h"
-
 #include <cmath>
 
-#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <lcmslam/planar_scan_t.hpp>
@@ -10,20 +7,19 @@
 
 #include "bus/log_writer.h"
 #include "bus/messages.h"
-#include "common/command_line.h"
 #include "evaluator/evaluation.pb.h"
 #include "evaluator/files.h"
 #include "evaluator/result.h"
 #include "lidar/occupancy_grid.h"
 #include "support/temporary_file.h"
+#include "unit/evaluator/run_evaluator.h"
 
 namespace lcmslam {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
 
-constexpr double kHalf_m = 2.0;  // of a square room around the origin
+constexpr double kHalf_m = 2.2;  // of a square room around the origin
 
 double RangeInRoom(const Pose2& T_world_body, double angle_rad) {
   const double direction = T_world_body.yaw() + angle_rad;
@@ -53,32 +49,17 @@ void WriteRoomLog(const std::filesystem::path& path, double sway_m = 0.0) {
 // The room's walls `offset_m` too far to the right, without its left one.
 std::string WriteMapOfRoom(const std::filesystem::path& folder, double offset_m) {
   OccupancyGrid grid{{-3.0 + offset_m, -3.0}, 0.02, 300, 300, std::vector<int8_t>(300 * 300, -100)};
-  for (int i = 51; i < 249; ++i) {
-    for (const auto& [column, row] : {std::pair{249, i}, {i, 50}, {i, 249}}) grid.cells[row * 300 + column] = 100;
+  for (int i = 41; i < 259; ++i) {
+    for (const auto& [column, row] : {std::pair{259, i}, {i, 40}, {i, 259}}) grid.cells[row * 300 + column] = 100;
   }
   const std::string stem = folder / "room";
   EXPECT_EQ(WriteMapFiles(grid, stem), "");
   return stem + ".yaml";
 }
 
-struct Outcome {
-  int code = 0;
-  std::string out, error;
-};
-
-Outcome Map(std::vector<std::string> arguments) {
-  CLI::App app("test", "evaluator");
-  std::function<ExitCode()> command;
-  AddMapCommand(app, "evaluator map", command);
-  arguments.insert(arguments.begin(), {"evaluator", "map"});
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  ::testing::internal::CaptureStdout();
-  ::testing::internal::CaptureStderr();
-  const int code = RunCommandLine(app, static_cast<int>(argv.size()), argv.data(), [&] { return command(); });
-  std::fflush(stdout);
-  const std::string out = ::testing::internal::GetCapturedStdout();
-  return {code, out, ::testing::internal::GetCapturedStderr()};
+testing::Outcome Map(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "map");
+  return testing::RunEvaluator(arguments);
 }
 
 TEST(MapCommand, DistanceAndCompleteness) {
@@ -86,7 +67,7 @@ TEST(MapCommand, DistanceAndCompleteness) {
   const std::string log = folder.path() / "truth.lcm", json = folder.path() / "quality.json";
   WriteRoomLog(log);
   const std::string map = WriteMapOfRoom(folder.path(), 0.0);
-  const Outcome run = Map({"--map", map, "--truth", log, "--json", json, "--quiet"});
+  const testing::Outcome run = Map({"--map", map, "--truth", log, "--json", json, "--quiet"});
   ASSERT_EQ(run.code, 0) << run.error;
   result::MapQuality quality;
   ReadJson(json, quality);
@@ -132,20 +113,18 @@ TEST(MapCommand, SaysInOneLineWhatIsWrong) {
   WriteRoomLog(log);
   const std::string map = WriteMapOfRoom(folder.path(), 0.0);
   const TemporaryFile rubbish("rubbish", ".sdf"), json("{}", ".json"), ply("ply\nrubbish\n", ".ply");
-  const auto expect = [](const Outcome& outcome, int code, const std::string& error) {
-    SCOPED_TRACE(error);
-    EXPECT_EQ(outcome.code, code);
-    EXPECT_THAT(outcome.error, HasSubstr(error));
-    EXPECT_THAT(outcome.error, MatchesRegex("evaluator: [^\n]*\n"));
+  const auto expect = [](std::vector<std::string> arguments, int code, const std::string& error) {
+    arguments.insert(arguments.begin(), {"map", "--quiet"});
+    testing::ExpectRefused(arguments, code, error);
   };
-  expect(Map({}), 2, "either --map FILE with --truth LOG, or --log-in LOG");
-  expect(Map({"--map", map}), 2, "--truth LOG: required");
-  expect(Map({"--map", rubbish.path(), "--truth", log, "--quiet"}), 3, rubbish.path().string());
-  expect(Map({"--map", ply.path(), "--truth", log, "--quiet"}), 3, "");
-  expect(Map({"--map", "map.txt", "--truth", log, "--quiet"}), 3, "map.txt: not a .sdf, .yaml or .ply map");
-  expect(Map({"--map", map, "--truth", "none.lcm", "--quiet"}), 3, "none.lcm");
-  expect(Map({"--map", map, "--truth", log, "--metrics", json.path(), "--quiet"}), 3, "no alignment in it");
-  expect(Map({"--log-in", log, "--estimate", "NONE", "--quiet"}), 4, "no poses on NONE");
+  expect({}, 2, "either --map FILE with --truth LOG, or --log-in LOG");
+  expect({"--map", map}, 2, "--truth LOG: required");
+  expect({"--map", rubbish.path(), "--truth", log}, 3, rubbish.path().string());
+  expect({"--map", ply.path(), "--truth", log}, 3, ply.path().string());
+  expect({"--map", "map.txt", "--truth", log}, 3, "map.txt: not a .sdf, .yaml or .ply map");
+  expect({"--map", map, "--truth", "none.lcm"}, 3, "none.lcm");
+  expect({"--map", map, "--truth", log, "--metrics", json.path()}, 3, "no alignment in it");
+  expect({"--log-in", log, "--estimate", "NONE"}, 4, "no poses on NONE");
 }
 
 }  // namespace

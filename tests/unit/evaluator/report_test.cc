@@ -210,7 +210,7 @@ TEST_F(Report, MapsMotionAndNotesStandOnThePage) {
   EXPECT_THAT(motion.rows.back(), Contains("1 m, drift from first to last pose"));
   EXPECT_THAT(TimingTable(study, study.groups[0].episodes[1]).rows,
               Contains(ElementsAre("a", "latency, arrival to end", "-", "1.50", "-", "7.50", "-", "-")));
-  WritePage(study, {.title = "t", .command = "c", .file = folder_ / "out.html"});
+  WritePage(study, {.title = "t", .note = "", .command = "c", .file = folder_ / "out.html"});
   EXPECT_THAT(ReadPage(), HasSubstr("2, a: 12 poses in gaps of the reference"));
   EXPECT_THAT(ReadPage(), HasSubstr("2, a: the motion does not excite lever arm z"));
   EXPECT_THAT(ReadPage(), HasSubstr("<figure id=\"group1_timing\"><svg")) << "latency";

@@ -9,6 +9,7 @@ namespace lcmslam {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int64_t kStart = 1'000'000'000;
 
@@ -25,16 +26,26 @@ Trajectory Reference(double duration_s, int64_t start_utime = kStart) {
   return testing::Sample(testing::Drive, duration_s, 0.02, start_utime);
 }
 
-void ExpectSame(const OnlineEvaluation& online, const Evaluation& batch) {
-  EXPECT_EQ(online.association().pairs.size(), batch.association.pairs.size());
-  EXPECT_EQ(online.association().before, batch.association.before);
-  EXPECT_EQ(online.association().in_gap, batch.association.in_gap);
+// The association and evaluation at the end.
+void ExpectSameFinal(OnlineEvaluation& online, const Evaluation& batch) {
+  const Association association = online.FinalAssociation(online.TakePairs());
+  EXPECT_EQ(association.before, batch.association.before);
+  EXPECT_EQ(association.in_gap, batch.association.in_gap);
+  EXPECT_EQ(association.after, batch.association.after);
+  const Evaluation evaluation = EvaluatePairs(association, online.alignment_kind(), {});
+  EXPECT_DOUBLE_EQ(evaluation.absolute.translation_m.rmse, batch.absolute.translation_m.rmse);
+}
+
+void ExpectSame(OnlineEvaluation& online, const Evaluation& batch) {
   const OnlineEvaluation::Result result = online.ErrorSoFar();
-  EXPECT_DOUBLE_EQ(result.error.translation_m.mean, batch.absolute.translation_m.mean);
-  EXPECT_DOUBLE_EQ(result.error.translation_m.max, batch.absolute.translation_m.max);
-  EXPECT_DOUBLE_EQ(result.error.rotation_rad.rmse, batch.absolute.rotation_rad.rmse);
-  EXPECT_DOUBLE_EQ(result.latest_error_m, batch.absolute_errors.translation_m.back());
+  EXPECT_EQ(static_cast<size_t>(result.matched), batch.association.pairs.size());
+  EXPECT_EQ(result.unmatched, batch.association.before + batch.association.in_gap);
+  EXPECT_NEAR(result.error.translation_m.mean, batch.absolute.translation_m.mean, 1e-9);
+  EXPECT_NEAR(result.error.translation_m.max, batch.absolute.translation_m.max, 1e-9);
+  EXPECT_NEAR(result.error.rotation_rad.rmse, batch.absolute.rotation_rad.rmse, 1e-9);
+  EXPECT_NEAR(result.latest_error_m, batch.absolute_errors.translation_m.back(), 1e-9);
   EXPECT_EQ(result.alignment.kind, batch.alignment.kind);
+  ExpectSameFinal(online, batch);
 }
 
 // However the two streams are interleaved, the end is that of the batch evaluation.
@@ -86,9 +97,11 @@ TEST(OnlineEvaluation, ClockThatStepsBackStartsANewSegment) {
     };
     play(150);
     const double error_m = online.ErrorSoFar().error.translation_m.mean;
-    EXPECT_EQ(online.association().pairs.size(), 150u);
+    EXPECT_EQ(online.ErrorSoFar().matched, 150);
     play(150);
-    EXPECT_NEAR(static_cast<double>(online.association().pairs.size()), 150.0, 2.0);
+    EXPECT_NEAR(static_cast<double>(online.ErrorSoFar().matched), 150.0, 2.0);
+    EXPECT_EQ(static_cast<int64_t>(online.TakePairs().size()), online.ErrorSoFar().matched) << "of the new segment";
+    EXPECT_EQ(online.segment(), 2);
     EXPECT_NEAR(online.ErrorSoFar().error.translation_m.mean, error_m, 1e-3);
     EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("clock stepped back"));
     EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("segment 2"));
@@ -108,6 +121,99 @@ TEST(OnlineEvaluation, RepeatedAndSwappedStampsAreLeftOut) {
   }
   ExpectSame(online, Evaluate(estimate, reference));
   EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("351 poses out of order left out"));
+}
+
+// Both streams by time, as they would come in.
+void Play(const Trajectory& estimate, const Trajectory& reference, OnlineEvaluation& online) {
+  size_t e = 0;
+  for (const StampedPose& r : reference) {
+    while (e < estimate.size() && estimate[e].utime <= r.utime) online.AddEstimate(estimate[e++]);
+    online.AddReference(r);
+  }
+}
+
+void Delay(std::span<StampedPose> poses, int64_t step_us) {
+  for (StampedPose& p : poses) p.utime += step_us;
+}
+
+// The poses are the same before and after: so is the error.
+TEST(OnlineEvaluation, ClockOfBothThatStepsAheadIsSaidAndTheErrorGoesOn) {
+  Trajectory estimate = NoisyEstimate(20.0, 2), reference = Reference(20.0);
+  OnlineEvaluation undisturbed({});
+  Play(estimate, reference, undisturbed);
+  Delay(std::span(estimate).subspan(100), 100'000'000);
+  Delay(std::span(reference).subspan(500), 100'000'000);
+  OnlineEvaluation online({});
+  Play(estimate, reference, online);
+  const OnlineEvaluation::Result result = online.ErrorSoFar();
+  EXPECT_THAT(result.text, HasSubstr("clock stepped ahead 100."));
+  EXPECT_EQ(online.segment(), 1);
+  EXPECT_EQ(result.matched, undisturbed.ErrorSoFar().matched);
+  EXPECT_NEAR(result.error.translation_m.mean, undisturbed.ErrorSoFar().error.translation_m.mean, 1e-9);
+}
+
+TEST(OnlineEvaluation, ClockOfOneThatStepsAheadIsSaid) {
+  Trajectory estimate = NoisyEstimate(20.0, 2);
+  Delay(std::span(estimate).subspan(100), 100'000'000);
+  OnlineEvaluation online({});
+  const Trajectory reference = Reference(20.0);
+  size_t e = 0;
+  for (const StampedPose& r : reference) {
+    online.AddReference(r);
+    if (r.utime >= kStart + static_cast<int64_t>(e) * 100'000) online.AddEstimate(estimate[e++]);
+  }
+  EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("clock stepped ahead 100.0"));
+  EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("no reference for 100.0 s"));
+  EXPECT_EQ(online.ErrorSoFar().matched, 100);
+}
+
+TEST(OnlineEvaluation, SingleStampsFromTheFutureAreLeftOut) {
+  for (const bool in_reference : {true, false}) {
+    SCOPED_TRACE(in_reference);
+    const Trajectory estimate = NoisyEstimate(20.0, 2), reference = Reference(20.0);
+    const Evaluation batch = Evaluate(estimate, reference);
+    OnlineEvaluation online({});
+    size_t e = 0;
+    for (size_t i = 0; i < reference.size(); ++i) {
+      if (in_reference && i == 500) online.AddReference({kStart + 3'600'000'000, {}});
+      if (!in_reference && i == 500) online.AddEstimate({kStart + 3'600'000'000, {}});
+      online.AddReference(reference[i]);
+      while (e < estimate.size() && estimate[e].utime <= reference[i].utime) online.AddEstimate(estimate[e++]);
+    }
+    EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("clock stepped ahead 3590."));
+    EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("1 pose out of order left out"));
+    EXPECT_EQ(online.segment(), 1);
+    ExpectSame(online, batch);
+  }
+}
+
+TEST(OnlineEvaluation, GapsAreNoStepOfTheClock) {
+  const Trajectory estimate = NoisyEstimate(20.0, 2);
+  Trajectory reference = Reference(20.0);
+  reference.erase(reference.begin() + 400, reference.begin() + 600);  // 4 s missing
+  OnlineEvaluation online({});
+  Play(estimate, reference, online);
+  EXPECT_THAT(online.ErrorSoFar().text, Not(HasSubstr("clock")));
+  EXPECT_THAT(online.ErrorSoFar().text, HasSubstr("in gaps of the reference"));
+}
+
+// 20000 pairs, of which a tenth are kept.
+TEST(OnlineEvaluation, LongRunsAreThinnedAndTheLargestErrorIsKept) {
+  Trajectory estimate = NoisyEstimate(2000.0, 4);
+  const Trajectory reference = Reference(2000.0);
+  estimate[7777].pose.translation.y() += 3.0;
+  OnlineEvaluation online({});
+  Play(estimate, reference, online);
+  const Evaluation batch = Evaluate(estimate, reference);
+  const OnlineEvaluation::Result result = online.ErrorSoFar();
+  EXPECT_LE(result.error.translation_m.count, 2048);
+  EXPECT_GE(result.error.translation_m.count, 1024);
+  EXPECT_THAT(result.text, HasSubstr("mean over one pose in 16"));
+  EXPECT_EQ(static_cast<size_t>(result.matched), batch.association.pairs.size());
+  EXPECT_NEAR(result.error.translation_m.mean / batch.absolute.translation_m.mean, 1.0, 0.05);
+  EXPECT_NEAR(result.error.translation_m.max, batch.absolute.translation_m.max, 1e-9);
+  EXPECT_LT(AngleBetween(result.alignment.T_world_map.rotation, batch.alignment.T_world_map.rotation), 1e-9);
+  ExpectSameFinal(online, batch);
 }
 
 }  // namespace

@@ -90,7 +90,8 @@ TEST(RelativeErrors, AgreeWithSearchOverAllPairs) {
     }
     for (const double step_m : {0.5, 1.0, 2.0, 5.0, 1000.0}) {
       SCOPED_TRACE(step_m);
-      ExpectNear(RelativeErrorsOverDistance(pairs, step_m), AllRelativeErrors(pairs, Lengths(pairs), step_m));
+      ExpectNear(RelativeErrorsOverDistance(pairs, PathLengths(pairs), step_m),
+                 AllRelativeErrors(pairs, Lengths(pairs), step_m));
     }
   }
 }
@@ -108,8 +109,8 @@ TEST(RelativeErrors, DoNotDependOnTheFrames) {
 
 TEST(RelativeErrors, StandingStillHasNoDistance) {
   const std::vector<PosePair> still(50);
-  EXPECT_TRUE(RelativeErrorsOverDistance(still, 0.5).translation_m.empty());
-  EXPECT_TRUE(RelativeErrorsOverDistance({}, 0.5).translation_m.empty());
+  EXPECT_TRUE(RelativeErrorsOverDistance(still, PathLengths(still), 0.5).translation_m.empty());
+  EXPECT_TRUE(RelativeErrorsOverDistance({}, {}, 0.5).translation_m.empty());
   EXPECT_TRUE(RelativeErrorsOverTime({still.data(), 1}, 0.5).translation_m.empty());
 }
 
@@ -135,22 +136,24 @@ TEST(KittiSegmentErrors, AgreeWithTheDevkitsLoops) {
       rotation.push_back(Angle(error) / length);
     }
   }
-  const KittiErrors actual = KittiSegmentErrors(pairs);
+  const KittiErrors actual = KittiSegmentErrors(pairs, PathLengths(pairs));
   ExpectNear({actual.translation_ratio, actual.rotation_rad_per_m}, {translation, rotation});
   EXPECT_GT(translation.size(), 300u);
-  EXPECT_TRUE(KittiSegmentErrors({pairs.data(), 100}).translation_ratio.empty()) << "80 m";
+  const std::span short_run(pairs.data(), 100);
+  EXPECT_TRUE(KittiSegmentErrors(short_run, PathLengths(short_run)).translation_ratio.empty()) << "80 m";
 }
 
 TEST(DriftPerMetre, IsTheErrorFromEndToEndOverTheLength) {
   const auto pairs = testing::NoisyPairs(100, 12, 0.05);
-  const Drift drift = DriftPerMetre(pairs);
+  const Drift drift = DriftPerMetre(pairs, PathLengths(pairs));
   const double length_m = Lengths(pairs).back();
   const Eigen::Matrix4d error = RelativeError(pairs.front(), pairs.back());
   EXPECT_NEAR(drift.path_length_m, length_m, 1e-9);
   EXPECT_NEAR(drift.translation_m_per_m, Translation(error) / length_m, 1e-9);
   EXPECT_NEAR(drift.rotation_rad_per_m, Angle(error) / length_m, 1e-9);
-  EXPECT_TRUE(std::isnan(DriftPerMetre({}).translation_m_per_m));
-  EXPECT_TRUE(std::isnan(DriftPerMetre(std::vector<PosePair>(5)).translation_m_per_m));
+  EXPECT_TRUE(std::isnan(DriftPerMetre({}, {}).translation_m_per_m));
+  const std::vector<PosePair> still(5);
+  EXPECT_TRUE(std::isnan(DriftPerMetre(still, PathLengths(still)).translation_m_per_m));
 }
 
 }  // namespace
