@@ -27,7 +27,7 @@ pose_channel() {
   printf '%s_POSE\n' "${name^^}"
 }
 
-# ensure_built [CMAKE_TARGET...]
+# ensure_built [--tests] [CMAKE_TARGET...]: see replay/setup.
 ensure_built() {
   [[ -n ${LCMSLAM_BIN:-} ]] || "$root/replay/setup" "$@"
 }
