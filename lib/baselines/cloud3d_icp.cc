@@ -112,7 +112,7 @@ IcpResult Icp(const Map& map, const Cloud& reading_body, const Pose3& T_map_body
   for (bool done = false; !done && result.iterations < options.max_iterations;) {
     const Cloud reading_map = Transformed(result.T_map_body, reading_body);
     const std::vector<Match> matches = KeepInliers(map, reading_map, FindMatches(map, reading_map, options), options);
-    result.overlap =
+    result.inlier_ratio =
         static_cast<double>(matches.size()) / std::max<double>(1.0, reading_body.size() * options.neighbours);
     const NormalEquations sums = Linearize(map, reading_map, matches, result.T_map_body.translation);
     const Eigen::LDLT<Matrix6> factor(sums.H);
@@ -128,7 +128,7 @@ IcpResult Icp(const Map& map, const Cloud& reading_body, const Pose3& T_map_body
     ++result.iterations;
     done = checker.IsDoneAfter(step);
   }
-  result.solved = result.overlap >= options.min_overlap;
+  result.solved = result.inlier_ratio >= options.min_overlap;
   if (!result.solved) result.T_map_body = T_map_body_guess;
   return result;
 }

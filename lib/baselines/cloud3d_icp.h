@@ -8,6 +8,7 @@
 
 #include "baselines/cloud3d_cloud.h"
 #include "baselines/cloud3d_map.h"
+#include "baselines/tracking.h"
 #include "geometry/pose3.h"
 
 namespace lcmslam::cloud3d {
@@ -16,11 +17,11 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 struct IcpOptions {
-  int neighbours = 3;                 // map points that a reading point is matched to
-  double epsilon = 0.0;               // a match may be up to 1 + epsilon times as far as the nearest point
-  double max_distance_m = 2.0;        // farther points do not match
-  double trim_ratio = 0.85;           // of the matches, the nearest: the others are outliers
-  double max_normal_angle_rad = 0.0;  // matches whose normals differ by more are outliers; 0: any may
+  int neighbours = 3;                  // map points that a reading point is matched to
+  double epsilon = 0.0;                // a match may be up to 1 + epsilon times as far as the nearest point
+  double max_distance_m = 2.0;         // farther points do not match
+  double trim_ratio = 0.85;            // of the matches, the nearest: the others are outliers
+  double max_normal_angle_rad = 0.75;  // matches whose normals differ by more are outliers; 0: any may
   int max_iterations = 40;
   double min_step_m = 0.001;    // done when the last steps were on average shorter ...
   double min_step_rad = 0.001;  // ... and turned less
@@ -30,15 +31,10 @@ struct IcpOptions {
   std::string Validate() const;  // "" or "field: reason"
 };
 
-struct IcpResult {
-  bool solved = false;  // false: the map does not fix the pose, which is the guess
-  Pose3 T_map_body;
-  // Translation, rotation vector; map axes, about the body's origin: inv(H) * sum r^2 / (n - 6) of the last step.
-  Matrix6 covariance = Matrix6::Zero();
-  int iterations = 0;
-  double overlap = 0.0;         // matches kept / (points * neighbours), of the last step
-  double residual_rms_m = 0.0;  // point to plane, over the matches kept, before the last step
-};
+// Covariance: translation, rotation vector; map axes, about the body's origin: inv(H) * sum r^2 / (n - 6) of the last
+// step. Inlier ratio: matches kept / (points * neighbours), of the last step, the overlap. Residual: point to plane,
+// over the matches kept, before the last step.
+using IcpResult = Registered<Pose3, 6>;
 
 // A point of the reading and one of the map.
 struct Match {

@@ -12,7 +12,7 @@
 namespace lcmslam::cloud3d {
 
 struct MapOptions {
-  double spacing_m = 0.1;  // a point comes in when it is at least this far from all others
+  double spacing_m = 0.05;  // a point comes in when it is at least this far from all others
 
   std::string Validate() const;  // "" or "field: reason"
 };

@@ -12,6 +12,18 @@ double SecondsBetween(int64_t from_utime, int64_t to_utime) {
   return kUsToS * (static_cast<double>(to_utime) - static_cast<double>(from_utime));
 }
 
+// Of the finite points, before the last one, which is at 0.
+double MeanTime_s(const Sweep& sweep) {
+  double sum_us = 0.0;
+  int64_t count = 0;
+  for (const SweepPoint& point : sweep.points) {
+    if (!point.IsFinite()) continue;
+    sum_us += point.dt_us;
+    ++count;
+  }
+  return count > 0 ? kUsToS * sum_us / static_cast<double>(count) : 0.0;
+}
+
 // The motion, gone on with for `ratio` times as long.
 Pose3 Scaled(const Pose3& motion, double ratio) {
   const Eigen::AngleAxisd turn(motion.rotation);
@@ -42,11 +54,11 @@ Result Pipeline::Process(const Sweep& sweep, const std::optional<Pose3>& T_befor
   Result result = Locate(cloud_body, T_map_body_guess);
   result.utime = sweep.utime;
   MoveTo(sweep.utime, result.T_map_body);
+  if (options_.reach_last_point) result.T_map_body = PoseAtLastPoint(sweep);
   SetVelocity(result);
   clock.Finish(Stage::kIcp);
 
-  const bool placed = result.status == Status::kInitializing || result.status == Status::kTracking;
-  if (placed && !options_.localize_only && MovedEnough()) {
+  if (result.IsPlaced() && !options_.localize_only && MovedEnough()) {
     result.map_points_added = map_.Grow(Transformed(T_map_body_, cloud_body));
     T_map_body_grown_ = T_map_body_;
   }
@@ -56,10 +68,8 @@ Result Pipeline::Process(const Sweep& sweep, const std::optional<Pose3>& T_befor
 }
 
 bool Pipeline::MovedEnough() const {
-  if (!T_map_body_grown_) return true;
-  const Pose3 motion = T_map_body_grown_->inverse() * T_map_body_;
-  return motion.translation.norm() >= options_.update_distance_m ||
-         AngleBetween(motion.rotation, Eigen::Quaterniond::Identity()) >= options_.update_angle_rad;
+  return !T_map_body_grown_ ||
+         Reaches(T_map_body_grown_->inverse() * T_map_body_, options_.update_distance_m, options_.update_angle_rad);
 }
 
 Pose3 Pipeline::Predict(int64_t utime) const {
@@ -71,20 +81,14 @@ Pose3 Pipeline::Predict(int64_t utime) const {
 
 Result Pipeline::Locate(const Cloud& cloud_body, const Pose3& T_map_body_guess) {
   const Cloud reading_body = RandomSample(cloud_body, options_.reading_ratio, random_);
-  Result result{.T_map_body = T_map_body_guess, .num_points = static_cast<int>(reading_body.size())};
-  if (reading_body.size() < kMinPoints) return result;
-  if (map_.size() == 0) {
-    result.status = options_.localize_only ? Status::kLost : Status::kInitializing;
-    return result;
-  }
-  const IcpResult icp = Icp(map_, reading_body, T_map_body_guess, options_.icp);
-  result.status = icp.solved ? Status::kTracking : Status::kLost;
-  result.T_map_body = icp.T_map_body;
-  result.covariance = icp.covariance;
-  result.iterations = icp.iterations;
-  result.overlap = icp.overlap;
-  result.residual_rms_m = icp.residual_rms_m;
+  Result result;
+  if (result.Begin(reading_body.size(), kMinPoints, map_.size() > 0, options_.localize_only, T_map_body_guess))
+    result.Take(Icp(map_, reading_body, T_map_body_guess, options_.icp));
   return result;
+}
+
+Pose3 Pipeline::PoseAtLastPoint(const Sweep& sweep) const {
+  return motion_s_ > 0.0 ? T_map_body_ * Scaled(T_before_now_, -MeanTime_s(sweep) / motion_s_) : T_map_body_;
 }
 
 void Pipeline::MoveTo(int64_t utime, const Pose3& T_map_body) {

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "baselines/occupancy2d_grid.h"
+#include "baselines/tracking.h"
 #include "geometry/pose2.h"
 
 namespace lcmslam::occupancy2d {
@@ -19,15 +20,9 @@ struct MatchOptions {
   std::string Validate() const;  // "" or "field: reason"
 };
 
-struct MatchResult {
-  bool solved = false;  // false: the map does not fix the pose, which is the guess
-  Pose2 T_map_body = {};
-  int iterations = 0;
-  // On the finest level. x, y, yaw; map axes, about the body's origin: inv(H) * sum r^2 / (n - 3) of the last step.
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double inlier_ratio = 0.0;    // points that lie where M > 0.5
-  double residual_rms_m = 0.0;  // first-order distance to M = 1, over inliers
-};
+// On the finest level. Covariance: x, y, yaw; map axes, about the body's origin: inv(H) * sum r^2 / (n - 3) of the last
+// step. Inliers: points that lie where M > 0.5. Residual: first-order distance to M = 1.
+using MatchResult = Registered<Pose2, 3>;
 
 // The sums of one Gauss-Newton step on the residuals r = 1 - M(T_map_body p).
 struct NormalEquations {

@@ -47,8 +47,7 @@ Result Pipeline::Process(const PlanarScan& scan) {
   T_map_body_ = result.T_map_body;
   clock.Finish(Stage::kMatch);
 
-  const bool placed = result.status == Status::kInitializing || result.status == Status::kTracking;
-  if (placed && !options_.localize_only && MovedEnough()) {
+  if (result.IsPlaced() && !options_.localize_only && MovedEnough()) {
     WriteMap(p_body);
     result.map_written = true;
   }
@@ -58,19 +57,10 @@ Result Pipeline::Process(const PlanarScan& scan) {
 }
 
 Result Pipeline::Locate(const std::vector<Eigen::Vector2d>& p_body, const Pose2& T_map_body_guess) const {
-  Result result{.T_map_body = T_map_body_guess, .num_points = static_cast<int>(p_body.size())};
-  if (p_body.size() < kMinPoints) return result;
-  if (!T_map_body_written_) {
-    result.status = options_.localize_only ? Status::kLost : Status::kInitializing;
-    return result;
-  }
-  const MatchResult match = Match(levels_, p_body, T_map_body_guess, options_.match);
-  result.status = match.solved ? Status::kTracking : Status::kLost;
-  result.T_map_body = match.T_map_body;
-  result.covariance = match.covariance;
-  result.iterations = match.iterations;
-  result.inlier_ratio = match.inlier_ratio;
-  result.residual_rms_m = match.residual_rms_m;
+  Result result;
+  if (result.Begin(p_body.size(), kMinPoints, T_map_body_written_.has_value(), options_.localize_only,
+                   T_map_body_guess))
+    result.Take(Match(levels_, p_body, T_map_body_guess, options_.match));
   return result;
 }
 
@@ -85,9 +75,8 @@ std::vector<Eigen::Vector2d> Pipeline::EndPoints(const PlanarScan& scan) const {
 }
 
 bool Pipeline::MovedEnough() const {
-  if (!T_map_body_written_) return true;
-  const Pose2 motion = T_map_body_written_->inverse() * T_map_body_;
-  return motion.translation().norm() > options_.update_distance_m || std::abs(motion.yaw()) > options_.update_angle_rad;
+  return !T_map_body_written_ ||
+         Reaches(T_map_body_written_->inverse() * T_map_body_, options_.update_distance_m, options_.update_angle_rad);
 }
 
 void Pipeline::WriteMap(const std::vector<Eigen::Vector2d>& p_body) {

@@ -12,6 +12,7 @@
 #include "baselines/occupancy2d_grid.h"
 #include "baselines/occupancy2d_match.h"
 #include "baselines/occupancy2d_odometry.h"
+#include "baselines/tracking.h"
 #include "geometry/pose2.h"
 #include "lidar/occupancy_grid.h"
 #include "lidar/planar_scan.h"
@@ -33,27 +34,15 @@ struct Options {
   std::string Validate() const;  // "" or "field: reason"
 };
 
-// Same numbers as slam_diagnostics_t.
-enum class Status : int8_t {
-  kInitializing = 0,  // the scan that began the map; the pose is the initial one
-  kTracking = 1,
-  kLost = 4,     // the map does not fix the pose, or the body left the map's extent: the pose is the prediction
-  kSkipped = 5,  // fewer than 3 returns: the pose is the prediction
-};
+using Status = TrackingStatus;
 
 enum class Stage { kPrepare, kMatch, kWriteMap };
 inline constexpr std::array kStageNames = {"prepare", "match", "write map"};
 inline constexpr size_t kNumStages = kStageNames.size();
 
-struct Result {
-  Status status = Status::kSkipped;
-  int64_t utime = 0;  // us; the scan's
-  Pose2 T_map_body = {};
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // x, y, yaw; map axes, about the body's origin
-  int num_points = 0;                                    // returns offered to the match
-  int iterations = 0;
-  double inlier_ratio = 0.0;    // of num_points: on cells more likely occupied than not
-  double residual_rms_m = 0.0;  // over inliers
+// Before the first scan is placed the guess is the initial pose. Lost is also who has left the map's extent; skipped
+// are scans of fewer than 3 returns. See MatchResult.
+struct Result : Tracked<Pose2, 3> {
   bool map_written = false;
   std::array<double, kNumStages> stage_ms{};  // zeros without a stopwatch
 };

@@ -37,4 +37,8 @@ Pose2 Interpolate(const Pose2& a, const Pose2& b, double fraction) {
           a.yaw() + fraction * WrapAngle(b.yaw() - a.yaw())};
 }
 
+bool Reaches(const Pose2& motion, double distance_m, double angle_rad) {
+  return motion.translation().norm() >= distance_m || std::abs(motion.yaw()) >= angle_rad;
+}
+
 }  // namespace lcmslam

@@ -41,4 +41,7 @@ class Pose2 {
 // From a (fraction 0) to b (fraction 1): translation linear, yaw the short way round. Extrapolates outside [0, 1].
 Pose2 Interpolate(const Pose2& a, const Pose2& b, double fraction);
 
+// Whether a motion is at least so long, or turns by at least so much.
+bool Reaches(const Pose2& motion, double distance_m, double angle_rad);
+
 }  // namespace lcmslam

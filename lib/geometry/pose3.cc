@@ -32,4 +32,9 @@ double AngleBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return 2.0 * std::atan2(d.vec().norm(), std::abs(d.w()));
 }
 
+bool Reaches(const Pose3& motion, double distance_m, double angle_rad) {
+  return motion.translation.norm() >= distance_m ||
+         AngleBetween(motion.rotation, Eigen::Quaterniond::Identity()) >= angle_rad;
+}
+
 }  // namespace lcmslam

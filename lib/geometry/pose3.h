@@ -33,5 +33,7 @@ Pose2 ToPose2(const Pose3& pose);
 double Yaw(const Eigen::Quaterniond& rotation);
 // The angle between two rotations, in [0, pi].
 double AngleBetween(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b);
+// Whether a motion is at least so long, or turns by at least so much.
+bool Reaches(const Pose3& motion, double distance_m, double angle_rad);
 
 }  // namespace lcmslam

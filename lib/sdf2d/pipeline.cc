@@ -107,9 +107,8 @@ Pipeline::Registration Pipeline::GiveUp(const MotionState& prediction, AlignResu
 
 bool Pipeline::MapIsDue(const Pose2& T_map_body) const {
   if (options_.localize_only) return false;
-  const Pose2 moved = T_map_body_mapped_.inverse() * T_map_body;
-  return map_.empty() || moved.translation().norm() >= options_.fusion.update_distance_m ||
-         std::abs(moved.yaw()) >= options_.fusion.update_angle_rad;
+  return map_.empty() || Reaches(T_map_body_mapped_.inverse() * T_map_body, options_.fusion.update_distance_m,
+                                 options_.fusion.update_angle_rad);
 }
 
 void Pipeline::UpdateMap(std::span<const ScanPoint> points, const MotionState& state, Result* result) {

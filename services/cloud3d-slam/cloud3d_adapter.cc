@@ -12,7 +12,7 @@ void Describe(const cloud3d::Result& result, slam_diagnostics_t& diagnostics) {
   diagnostics.status = static_cast<int8_t>(result.status);
   diagnostics.iterations = result.iterations;
   diagnostics.num_points = result.num_points;
-  diagnostics.inlier_ratio = static_cast<float>(result.overlap);
+  diagnostics.inlier_ratio = static_cast<float>(result.inlier_ratio);
   diagnostics.residual_rms = static_cast<float>(result.residual_rms_m);
   SetStages(cloud3d::kStageNames, result.stage_ms, diagnostics);
 }

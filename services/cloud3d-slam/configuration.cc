@@ -28,7 +28,8 @@ void BindOptions(config::Cloud3dSlam& config, Cloud3dSlamOptions& options) {
   cloud3d::Options& slam = options.slam;
   ConfigBinder bind(config);
   BindShell(bind, "CLOUD3D", options.service);
-  bind("reading_ratio", slam.reading_ratio)("max_gap_s", slam.max_gap_s)("seed", slam.seed);
+  bind("reading_ratio", slam.reading_ratio)("max_gap_s", slam.max_gap_s)("reach_last_point", slam.reach_last_point)(
+      "seed", slam.seed);
   BindFilter(bind.Sub("filter"), slam.filter);
   BindIcp(bind.Sub("icp"), slam.icp);
   BindMap(bind.Sub("map"), slam);

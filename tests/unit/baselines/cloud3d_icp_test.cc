@@ -33,7 +33,7 @@ TEST(Icp, RecoversKnownMotion) {
     ASSERT_TRUE(result.solved);
     EXPECT_LT((result.T_map_body.translation - T_map_body.translation).norm(), 1e-3);
     EXPECT_LT(AngleBetween(result.T_map_body.rotation, T_map_body.rotation), 1e-3);
-    EXPECT_NEAR(result.overlap, 0.85, 0.01);
+    EXPECT_NEAR(result.inlier_ratio, 0.83, 0.03);
   }
 }
 
@@ -83,7 +83,8 @@ TEST(KeepInliers, KeepsTheNearestShare) {
   for (const Match& match : matches) sorted_m2.push_back(match.distance_m2);
   std::ranges::sort(sorted_m2);
   for (const double ratio : {0.1, 0.5, 0.85, 1.0}) {
-    const std::vector<Match> kept = KeepInliers(map, reading, matches, {.trim_ratio = ratio});
+    const std::vector<Match> kept =
+        KeepInliers(map, reading, matches, {.trim_ratio = ratio, .max_normal_angle_rad = 0.0});
     EXPECT_NEAR(static_cast<double>(kept.size()), ratio * static_cast<double>(matches.size()), 1.5);
     for (const Match& match : kept) EXPECT_LE(match.distance_m2, sorted_m2[kept.size() - 1]);
   }

@@ -1,5 +1,7 @@
 #include "geometry/pose3.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "geometry/trajectory.h"
@@ -20,6 +22,16 @@ TEST(Pose3, InverseUndoes) {
   const Pose3 T{{1, 2, 3}, Eigen::Quaterniond(Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, -1).normalized()))};
   EXPECT_LT((T * (T.inverse() * Eigen::Vector3d(4, 5, 6)) - Eigen::Vector3d(4, 5, 6)).norm(), 1e-12);
   EXPECT_NEAR(AngleBetween(T.rotation, Eigen::Quaterniond::Identity()), 2.0, 1e-12);
+}
+
+TEST(Reaches, ByLengthOrAngle) {
+  for (const auto& [motion, reaches] : {std::pair{Pose2(0.3, 0.4, 0.0), true}, std::pair{Pose2(0.0, 0.0, -0.2), true},
+                                        std::pair{Pose2(0.3, 0.3, 0.1), false}}) {
+    EXPECT_EQ(Reaches(motion, 0.5, 0.2), reaches);
+    EXPECT_EQ(Reaches(ToPose3(motion), 0.5, 0.2 - 1e-12), reaches);
+  }
+  EXPECT_TRUE(Reaches(Pose2(), 0.0, 1.0)) << "at rest, where any motion will do";
+  EXPECT_TRUE(Reaches(Pose3(), 1.0, 0.0));
 }
 
 TEST(InterpolateAt, BetweenNeighboursOnly) {
