@@ -149,8 +149,8 @@ Figure BoxPlot(const std::string& name, const std::string& caption, const std::s
   }
   NeedsLogAxis(values_m) ? PrintLogAxis(text, "y", PositiveRange(values_m)) : Print(text, "set yrange [0:]\n");
   Print(text, "set style boxplot nooutliers fraction 0.95\nset boxwidth 0.4\nset style fill solid 0.25 border\n");
-  Print(text, "set xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel {}\n", tics, SlantIfLong(systems),
-        static_cast<double>(systems.size()) + 0.8, GnuplotString(axis));
+  Print(text, "set tmargin 1\nset xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel {}\n", tics,
+        SlantIfLong(systems), static_cast<double>(systems.size()) + 0.8, GnuplotString(axis));
   return {name, caption, fmt::to_string(text) + plot.Command()};
 }
 
@@ -282,10 +282,10 @@ Figure TimingPlot(const std::string& name, const std::string& caption, const Stu
   }
   Figure figure{name, caption, ""};
   if (text.size() == 0) return figure;
-  Print(
-      text,
-      "set logscale y\nset xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel \"time of a scan [ms]\"\n",
-      tics, SlantIfLong(study.systems), static_cast<double>(study.systems.size()) + 0.6);
+  Print(text,
+        "set tmargin 1\nset logscale y\nset xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel \"time of "
+        "a scan [ms]\"\n",
+        tics, SlantIfLong(study.systems), static_cast<double>(study.systems.size()) + 0.6);
   figure.script = fmt::to_string(text) + plot.Command();
   return figure;
 }

@@ -108,7 +108,7 @@ void AddSummary(const Study& study, const Group& group, Section& section) {
     section.tables.push_back(RatioTable(study, group));
     section.tables.push_back(ComparisonTable(comparisons));
   }
-  section.tables.push_back(MotionTable(study, group));
+  if (group.episodes.size() > 1) section.tables.push_back(MotionTable(study, group));
   section.tables.push_back(MapTable(study, group));
   section.tables.push_back(group.episodes.size() == 1 ? TimingTable(study, group.episodes.front())
                                                       : SpeedTable(study, group));
@@ -124,9 +124,8 @@ Figure EpisodeBoxes(const std::string& name, const Study& study, const Group& gr
   Samples errors_m;
   for (const std::string& system : study.systems) errors_m.push_back(TranslationErrors(group, system));
   const std::string caption = fmt::format(
-      "Mean position error of {} episodes [mm]: median, quartiles, 95 % of the episodes within the whiskers; every "
-      "episode is a "
-      "point; failed ones are not drawn",
+      "Mean position error of {} episodes [mm]: median, quartiles, 95 % of the episodes within the whiskers (of 5 or "
+      "more); every episode is a point; failed ones are not drawn",
       group.episodes.size());
   return BoxPlot(name, caption, "mean position error [mm]", study.systems, errors_m);
 }
@@ -145,8 +144,7 @@ void AddFigures(const Study& study, const Group& group, const PooledErrors& pool
   Figure timing =
       TimingPlot(name + "_timing",
                  "Time of a scan, wall clock [ms]: dot median, thick line up to p95, thin line up to the largest. "
-                 "Ring: latency from "
-                 "arrival to the end of handling, median, line up to the largest p99 of a second (live runs)",
+                 "Ring: latency from arrival to the end of handling, median, line up to the largest p99 of a second",
                  study, group);
   if (!timing.script.empty()) section.figures.push_back(std::move(timing));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "evaluator/report/numbers.h"
+#include "geometry/angles.h"
 
 namespace lcmslam::report {
 namespace {
@@ -14,6 +15,12 @@ void AddErrorRow(Table& table, const std::string& system, const std::string& wha
                         Millimetres(t.sd()), Millimetres(t.p95()), Millimetres(t.max()),
                         Milliradians(error.rotation_rad().mean()), Degrees(error.rotation_rad().mean()),
                         Milliradians(error.rotation_rad().max()), std::to_string(t.count())});
+}
+
+// Of what has a mean only.
+void AddMeanRow(Table& table, const std::string& system, const std::string& what, double mean_m, double mean_rad) {
+  table.rows.push_back({system, what, Millimetres(mean_m), "-", "-", "-", "-", "-", Milliradians(mean_rad),
+                        Degrees(mean_rad), "-", "-"});
 }
 
 void AddRatioRow(Table& table, const std::string& system, const std::string& other, const char* what, double a,
@@ -130,7 +137,10 @@ Table EpisodesTable(const Study& study, const Group& group) {
 Table PoseErrorTable(const Study& study, const Episode& episode) {
   Table table;
   table.name = "errors";
-  table.caption = "Errors over the poses of the run. SD divides by n.";
+  table.caption =
+      "Errors over the poses of the run. SD divides by n. KITTI's percentage (segments of 100 to 800 m) is a tenth of "
+      "the "
+      "mm per m.";
   table.header = {"system",   "error",    "mean [mm]",   "RMSE [mm]",  "median [mm]",     "SD [mm]",
                   "p95 [mm]", "max [mm]", "rot. [mrad]", "rot. [deg]", "rot. max [mrad]", "n"};
   table.text_columns = 2;
@@ -141,6 +151,14 @@ Table PoseErrorTable(const Study& study, const Episode& episode) {
       const std::string step =
           relative.has_step_s() ? fmt::format("{} s", relative.step_s()) : fmt::format("{} m", relative.step_m());
       AddErrorRow(table, system, "relative over " + step, relative.error());
+    }
+    if (m.has_drift()) {
+      AddMeanRow(table, system, "drift per m, first to last pose", m.drift().translation_m_per_m(),
+                 m.drift().rotation_rad_per_m());
+    }
+    if (m.has_kitti()) {
+      AddMeanRow(table, system, "KITTI segments, per m", m.kitti().translation_percent().mean() / 100.0,
+                 DegToRad(m.kitti().rotation_deg_per_m().mean()));
     }
     if (m.has_relations()) AddErrorRow(table, system, "relations", m.relations().error());
   }

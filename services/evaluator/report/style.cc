@@ -20,7 +20,10 @@ p { max-width: 48rem; }
 table { border-collapse: collapse; font-size: .85rem; }
 caption { text-align: left; padding-bottom: .3rem; max-width: min(60rem, calc(100vw - 3.5rem)); }
 th, td { padding: .25rem .55rem; border-bottom: 1px solid var(--line); text-align: left; white-space: nowrap; }
-thead th { border-bottom: 2px solid var(--soft); }
+thead th { border-bottom: 2px solid var(--soft); vertical-align: bottom; white-space: normal; }
+tbody tr.group td { border-top: 2px solid var(--line); }
+th:first-child, td:first-child { position: sticky; left: 0; background: var(--paper); padding-left: 0; }
+@media (max-width: 40rem) { td:first-child { white-space: normal; min-width: 5.5rem; } }
 .number { text-align: right; font-variant-numeric: tabular-nums; }
 .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(26rem, 100%), 1fr)); gap: 1rem; margin: 1rem 0; }
 figure { margin: 0; padding: .6rem; background: var(--panel); border-radius: .5rem; }

@@ -7,8 +7,9 @@
 namespace lcmslam::report {
 namespace {
 
-std::string Row(const std::vector<std::string>& cells, const char* tag, size_t text_columns) {
-  std::string html = "<tr>";
+std::string Row(const std::vector<std::string>& cells, const char* tag, size_t text_columns,
+                bool begins_group = false) {
+  std::string html = begins_group ? "<tr class=\"group\">" : "<tr>";
   for (size_t i = 0; i < cells.size(); ++i) {
     html += fmt::format("<{}{}>{}</{}>", tag, i < text_columns ? "" : " class=\"number\"", EscapeHtml(cells[i]), tag);
   }
@@ -35,7 +36,11 @@ std::string ToHtml(const Table& table) {
   std::string html = "<div class=\"scroll\"><table>\n";
   html += fmt::format("<caption>{}</caption>\n", EscapeHtml(table.caption));
   html += "<thead>" + Row(table.header, "th", table.text_columns) + "</thead>\n<tbody>\n";
-  for (const auto& row : table.rows) html += Row(row, "td", table.text_columns);
+  const std::string* group = nullptr;  // rows with the same first cell belong together
+  for (const auto& row : table.rows) {
+    html += Row(row, "td", table.text_columns, group != nullptr && *group != row.front());
+    group = &row.front();
+  }
   return html + "</tbody></table></div>\n";
 }
 

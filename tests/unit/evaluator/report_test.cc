@@ -208,6 +208,8 @@ TEST_F(Report, MapsMotionAndNotesStandOnThePage) {
   const Table motion = MotionTable(study, study.groups[0]);
   ASSERT_EQ(motion.rows.size(), 8u) << "seven steps and the drift; no KITTI segments on so short a run";
   EXPECT_THAT(motion.rows.back(), Contains("1 m, drift from first to last pose"));
+  EXPECT_THAT(PoseErrorTable(study, study.groups[0].episodes[0]).rows.back(),
+              Contains("drift per m, first to last pose"));
   EXPECT_THAT(TimingTable(study, study.groups[0].episodes[1]).rows,
               Contains(ElementsAre("a", "latency, arrival to end", "-", "1.50", "-", "7.50", "-", "-")));
   WritePage(study, {.title = "t", .note = "", .command = "c", .file = folder_ / "out.html"});
