@@ -24,7 +24,7 @@ PoseTable::PoseTable(const TimeSlots& slots, const std::function<Pose3(double dt
 int32_t FirstPointTime(const Sweep& sweep) {
   int32_t first_dt_us = 0;
   for (const SweepPoint& point : sweep.points) {
-    if (point.IsFinite()) first_dt_us = std::min(first_dt_us, point.dt_us);
+    if (point.dt_us < first_dt_us && point.IsFinite()) first_dt_us = point.dt_us;
   }
   return first_dt_us;
 }

@@ -6,14 +6,12 @@
 
 namespace lcmslam::octo3d {
 
-struct Observability {
-  Eigen::Matrix<double, 6, Eigen::Dynamic> held{6, 0};  // unit vectors (translation m, rotation rad), most held first
-  Matrix6 projection = Matrix6::Identity();             // P H P^T, P b: information without the held directions
-};
+// Unit vectors (translation m, rotation rad).
+using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-// information: of a pose (translation, rotation). Rotations are first scaled by the lever arm at which they weigh as
-// much as translations, so that the eigenvalues compare; directions with less than min_share of the trace of their kind
-// are held.
-Observability FindUnobservable(const Matrix6& information, double min_share);
+// What a sweep does not show, least known first. information: of a pose (translation, rotation). Rotations are first
+// scaled by the lever arm at which they weigh as much as translations, so that the eigenvalues compare; unobservable
+// are directions with less than min_share of the trace of their kind.
+Directions UnobservableDirections(const Matrix6& information, double min_share);
 
 }  // namespace lcmslam::octo3d

@@ -105,7 +105,7 @@ std::string Options::Validate() const {
       .Group("registration", registration.Validate())
       .Group("search", search.Validate())
       .Group("trust", trust.Validate())
-      .Field("max_points", max_points, 1000, 1e7)
+      .Field("max_points", max_points, 1000, 1e6)
       .Field("update_distance_m", update_distance_m, 0.0, 100.0)
       .Field("update_angle_rad", update_angle_rad, 0.0, 10.0)
       .Field("threads", threads, 1, 2)

@@ -37,7 +37,7 @@ struct RegistrationOptions {
   double step_sigmas = 0.5;        // converged when a step is shorter, in standard deviations of the motion
   double acceleration_mps2 = 0.5;  // expected changes of velocity: the motion prior
   double angular_acceleration_radps2 = 0.5;
-  double min_direction_share = 1e-3;  // directions with less of the information are held by the motion prior
+  double min_direction_share = 1e-3;  // directions with less of the information are unobservable
   std::string Validate() const;
 };
 

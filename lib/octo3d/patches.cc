@@ -20,10 +20,12 @@ constexpr int kKeyBits = 3 * kAxisBits + kTimeBits;
 constexpr int kRadixBits = 11;
 static_assert(kKeyBits == 4 * kRadixBits);
 
-struct KeyedPoint {
-  uint64_t key;  // time slice, then Morton code of the finest cell
-  uint32_t index;
-};
+// A point's time slice, Morton code of the finest cell, and index in the sweep, from the highest bits to the lowest.
+using KeyedPoint = uint64_t;
+constexpr int kIndexBits = 64 - kKeyBits;
+
+uint64_t KeyOf(KeyedPoint point) { return point >> kIndexBits; }
+size_t IndexOf(KeyedPoint point) { return point & ((uint64_t{1} << kIndexBits) - 1); }
 
 // Spreads the low 16 bits three apart.
 uint64_t Spread(uint64_t v) {
@@ -33,15 +35,21 @@ uint64_t Spread(uint64_t v) {
   return (v | v << 2) & 0x1249249249249249ULL;
 }
 
-// Least significant digit first: stable, so that equal keys keep the order of the sweep.
+// By key, least significant digit first: stable, so that equal keys keep the order of the sweep.
 void RadixSort(std::vector<KeyedPoint>& points) {
+  constexpr int kPasses = kKeyBits / kRadixBits;
+  const auto digit = [](KeyedPoint point, int pass) {
+    return (point >> (kIndexBits + pass * kRadixBits)) & ((1 << kRadixBits) - 1);
+  };
+  std::array<std::array<uint32_t, 1 << kRadixBits>, kPasses> starts = {};
+  for (const KeyedPoint point : points) {
+    for (int pass = 0; pass < kPasses; ++pass) ++starts[pass][digit(point, pass)];
+  }
   std::vector<KeyedPoint> other(points.size());
-  for (int shift = 0; shift < kKeyBits; shift += kRadixBits) {
-    std::array<uint32_t, 1 << kRadixBits> starts = {};
-    for (const KeyedPoint& p : points) ++starts[(p.key >> shift) & (starts.size() - 1)];
+  for (int pass = 0; pass < kPasses; ++pass) {
     uint32_t sum = 0;
-    for (uint32_t& start : starts) sum += std::exchange(start, sum);
-    for (const KeyedPoint& p : points) other[starts[(p.key >> shift) & (starts.size() - 1)]++] = p;
+    for (uint32_t& start : starts[pass]) sum += std::exchange(start, sum);
+    for (const KeyedPoint point : points) other[starts[pass][digit(point, pass)]++] = point;
     points.swap(other);
   }
 }
@@ -64,20 +72,21 @@ class PatchMaker {
  private:
   std::vector<KeyedPoint> KeyPoints() const {
     const double finest_m = options_.cell_m / (1 << (options_.levels - 1));
-    const double per_cell = 1.0 / finest_m;
-    const double limit = 1 << (kAxisBits - 1);
+    const auto per_cell = static_cast<float>(1.0 / finest_m);
+    constexpr float kLimit = 1 << (kAxisBits - 1);
+    const auto inside = [](float v) { return v >= 0.0F && v < 2.0F * kLimit; };
+    const size_t size = std::min(sweep_.points.size(), size_t{1} << kIndexBits);
     std::vector<KeyedPoint> points;
-    points.reserve(sweep_.points.size());
-    for (uint32_t i = 0; i < sweep_.points.size(); ++i) {
+    points.reserve(size);
+    for (size_t i = 0; i < size; ++i) {
       const SweepPoint& p = sweep_.points[i];
       if (!InRange(p, options_)) continue;
-      const double x = p.x * per_cell + limit, y = p.y * per_cell + limit, z = p.z * per_cell + limit;
-      const auto inside = [&](double v) { return v >= 0.0 && v < 2.0 * limit; };
+      const float x = p.x * per_cell + kLimit, y = p.y * per_cell + kLimit, z = p.z * per_cell + kLimit;
       if (!inside(x) || !inside(y) || !inside(z)) continue;
-      const uint64_t slice = static_cast<uint64_t>(slots_.SlotOf(p.dt_us) * options_.time_slices / TimeSlots::kSlots);
-      points.push_back({slice << (3 * kAxisBits) | Spread(static_cast<uint64_t>(x)) |
-                            Spread(static_cast<uint64_t>(y)) << 1 | Spread(static_cast<uint64_t>(z)) << 2,
-                        i});
+      const auto slice = static_cast<uint64_t>(slots_.SlotOf(p.dt_us) * options_.time_slices / TimeSlots::kSlots);
+      const uint64_t cell = Spread(static_cast<uint32_t>(x)) | Spread(static_cast<uint32_t>(y)) << 1 |
+                            Spread(static_cast<uint32_t>(z)) << 2;
+      points.push_back((slice << (3 * kAxisBits) | cell) << kIndexBits | i);
     }
     return points;
   }
@@ -85,29 +94,30 @@ class PatchMaker {
   // points: of one cell, `level` halvings above the finest.
   void Visit(std::span<const KeyedPoint> points, int level) {
     if (level > 0 && points.size() < kMinPlanePoints) return Split(points, level);
-    const SweepPoint& first = sweep_.points[points.front().index];
+    const SweepPoint& first = sweep_.points[IndexOf(points.front())];
     const Eigen::Vector3d reference(first.x, first.y, first.z);
     PointStatistics statistics;
     int64_t dt_us = 0;
-    for (const KeyedPoint& keyed : points) {
-      const SweepPoint& p = sweep_.points[keyed.index];
+    for (const KeyedPoint keyed : points) {
+      const SweepPoint& p = sweep_.points[IndexOf(keyed)];
       statistics.Add(Eigen::Vector3d(p.x, p.y, p.z) - reference);
       dt_us += p.dt_us;
     }
     // The variance of a sample of n varies by sqrt(2 / n) of itself.
     const double max_variance = max_variance_ * (1.0 + std::sqrt(2.0 / statistics.count));
-    if (level > 0 && FitPlane(statistics).variances[0] > max_variance) return Split(points, level);
+    const Eigen::Matrix3d covariance = statistics.Covariance();
+    if (level > 0 && IsThicker(covariance, max_variance)) return Split(points, level);
     const auto mean_dt_us = static_cast<int32_t>(dt_us / static_cast<int64_t>(points.size()));
-    patches_.push_back({reference + statistics.Mean(), statistics.Covariance().cast<float>(),
-                        static_cast<float>(statistics.count), static_cast<uint16_t>(slots_.SlotOf(mean_dt_us))});
+    patches_.push_back({reference + statistics.Mean(), covariance.cast<float>(), static_cast<float>(statistics.count),
+                        static_cast<uint16_t>(slots_.SlotOf(mean_dt_us))});
   }
 
   // Visits the cells one level finer.
   void Split(std::span<const KeyedPoint> points, int level) {
     const int shift = 3 * (level - 1);
     while (!points.empty()) {
-      const uint64_t cell = points.front().key >> shift;
-      const auto end = std::ranges::find_if(points, [&](const KeyedPoint& p) { return p.key >> shift != cell; });
+      const uint64_t cell = KeyOf(points.front()) >> shift;
+      const auto end = std::ranges::find_if(points, [&](KeyedPoint p) { return KeyOf(p) >> shift != cell; });
       const auto size = static_cast<size_t>(end - points.begin());
       Visit(points.first(size), level - 1);
       points = points.subspan(size);

@@ -26,8 +26,8 @@ inline bool InRange(const SweepPoint& p, const PatchOptions& options) {
 }
 
 // Condenses a sweep by an octree over its points (one per time slice): planar cells give their mean, others are split
-// down to the finest. Points out of the range limits and non-finite ones are skipped. Order and result depend on the
-// input only.
+// down to the finest. Points out of the range limits, non-finite ones and those beyond the first 2^20 are skipped.
+// Order and result depend on the input only.
 std::vector<Patch> MakePatches(const Sweep& sweep, const PatchOptions& options, double range_noise_m);
 
 }  // namespace lcmslam::octo3d

@@ -261,7 +261,7 @@ Result Pipeline::MakeResult(SweepStatus status, const RegistrationResult& regist
   result.velocity = belief_.mean.velocity;
   result.angular_velocity = belief_.mean.angular_velocity;
   result.covariance = belief_.information.ldlt().solve(Matrix12::Identity()).topLeftCorner<6, 6>();
-  result.held = registration.held;
+  result.unobservable = registration.unobservable;
   result.iterations = registration.iterations;
   result.matched = registration.matched;
   result.inlier_ratio = registration.inlier_ratio;

@@ -43,7 +43,7 @@ struct Result {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          // m/s, map frame
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // rad/s, map frame
   Matrix6 covariance = Matrix6::Zero();  // of the pose: translation, rotation vector, both in the map frame
-  Eigen::Matrix<double, 6, Eigen::Dynamic> held{6, 0};  // unobservable directions, kept by the motion prior
+  Directions unobservable{6, 0};         // what the sweep does not show: the motion prior decides there
   int iterations = 0;
   int patches = 0;
   int matched = 0;

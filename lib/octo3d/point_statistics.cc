@@ -31,4 +31,10 @@ PlaneFit FitPlane(const PointStatistics& statistics) {
   return {statistics.Mean(), solver.eigenvectors().col(0), solver.eigenvalues().cwiseMax(0.0)};
 }
 
+// All eigenvalues of C exceed v where C - v I is positive definite: Sylvester's criterion.
+bool IsThicker(const Eigen::Matrix3d& covariance, double max_variance) {
+  const Eigen::Matrix3d rest = covariance - max_variance * Eigen::Matrix3d::Identity();
+  return rest(0, 0) > 0.0 && rest(0, 0) * rest(1, 1) > rest(0, 1) * rest(0, 1) && rest.determinant() > 0.0;
+}
+
 }  // namespace lcmslam::octo3d

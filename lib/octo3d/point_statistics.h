@@ -32,6 +32,9 @@ struct PlaneFit {
 // Needs count > 0. O(1).
 PlaneFit FitPlane(const PointStatistics& statistics);
 
+// Whether the least of FitPlane()'s variances, of points with this covariance, exceeds max_variance: without the fit.
+bool IsThicker(const Eigen::Matrix3d& covariance, double max_variance);
+
 inline void PointStatistics::Add(const Eigen::Vector3d& p) {
   count += 1.0;
   sum += p;

@@ -7,7 +7,6 @@
 #include <Eigen/Cholesky>
 
 #include "lidar/pose_table.h"
-#include "octo3d/observability.h"
 #include "octo3d/sweep_information.h"
 
 namespace lcmslam::octo3d {
@@ -17,9 +16,13 @@ namespace {
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 using Vector24 = Eigen::Matrix<double, 24, 1>;
 
+// What a patch is measured against.
 struct Association {
   Eigen::Vector3d asked = Eigen::Vector3d::Constant(1e9);  // where the map was asked
-  PlaneMatch plane;
+  bool matched = false;
+  Eigen::Vector3d normal, mean;
+  double sigma = 0.0;        // m, of a single point over the plane
+  double information = 0.0;  // 1/m^2, of the patch's height over the plane
 };
 
 // The information about `to` alone: Schur complement.
@@ -46,7 +49,10 @@ class Registrar {
   RegistrationResult Run() {
     Predict();
     for (result_.iterations = 1; result_.iterations <= options_.max_iterations; ++result_.iterations) {
-      Linearise();
+      const double sweep_us = 1e6 * sweep_.duration_s;
+      const PoseTable poses(slots_, [&](double dt_us) { return result_.motion.At(1.0 + dt_us / sweep_us); });
+      Associate(poses);
+      Linearise(poses);
       if (result_.matched < kMinMatches) break;
       const bool small = Step();
       const bool narrow = kernel_floor_m_ <= 0.0;
@@ -64,7 +70,9 @@ class Registrar {
 
  private:
   void Predict();
-  void Linearise();
+  void Associate(const PoseTable& poses);
+  Association Associate(const Patch& patch, const PoseTable& poses, const PlaneMatch& plane) const;
+  void Linearise(const PoseTable& poses);
   bool LiesFlat(const Patch& patch, const Eigen::Vector3d& normal) const;
   void AddPriors(Matrix24& H, Vector24& b) const;
   bool Step();
@@ -74,7 +82,7 @@ class Registrar {
   static constexpr double kInlier = 3.0;  // standard deviations
   static constexpr double kNarrowM = 0.02;
   static constexpr double kMaxThickness = 1.1;  // of a patch across the plane it is matched to, in range_noise_m
-  static constexpr double kReuseM = 0.005;      // a patch that moved less keeps its plane
+  static constexpr double kReuseM = 0.01;       // a patch that moved less keeps its plane
 
   const SurfelMap& map_;
   const TimedPatches& sweep_;
@@ -85,6 +93,9 @@ class Registrar {
 
   const TimeSlots slots_;
   std::vector<Association> associations_;
+  std::vector<uint32_t> moved_;  // patches that are to be associated anew, their places and planes
+  std::vector<Eigen::Vector3d> asked_;
+  std::vector<PlaneMatch> planes_;
   SweepInformation measured_;
   Matrix24 H_ = Matrix24::Zero();
   double kernel_floor_m_ = 0.0;
@@ -105,40 +116,57 @@ void Registrar::Predict() {
   result_.motion = guess_;
 }
 
-void Registrar::Linearise() {
-  const double sweep_us = 1e6 * sweep_.duration_s;
-  const PoseTable poses(slots_, [&](double dt_us) { return result_.motion.At(1.0 + dt_us / sweep_us); });
+void Registrar::Associate(const PoseTable& poses) {
+  moved_.clear();
+  asked_.clear();
+  for (uint32_t i = 0; i < associations_.size(); ++i) {
+    const Eigen::Vector3d p = poses[sweep_.patches[i].slot] * sweep_.patches[i].mean;
+    if ((p - associations_[i].asked).squaredNorm() <= kReuseM * kReuseM) continue;
+    moved_.push_back(i);
+    asked_.push_back(p);
+  }
+  planes_.resize(asked_.size());
+  map_.Find(asked_, planes_);
+  for (size_t k = 0; k < moved_.size(); ++k) {
+    associations_[moved_[k]] = Associate(sweep_.patches[moved_[k]], poses, planes_[k]);
+    associations_[moved_[k]].asked = asked_[k];
+  }
+}
+
+Association Registrar::Associate(const Patch& patch, const PoseTable& poses, const PlaneMatch& plane) const {
+  Association association;
+  association.matched = plane.found && LiesFlat(patch, poses[patch.slot].R_map_lidar.transpose() * plane.normal);
+  association.normal = plane.normal;
+  association.mean = plane.mean;
   const double range_var = map_.options().range_noise_m * map_.options().range_noise_m;
-  const double model_var = options_.model_error_m * options_.model_error_m;
+  const double plane_var = plane.variance + options_.model_error_m * options_.model_error_m;
+  association.sigma = std::sqrt(range_var + plane_var);
+  association.information = 1.0 / (range_var / patch.count + plane_var);
+  return association;
+}
+
+void Registrar::Linearise(const PoseTable& poses) {
   measured_.Clear();
   int matched = 0, inliers = 0;
   double squares = 0.0, normalised = 0.0;
-  for (size_t i = 0; i < sweep_.patches.size(); ++i) {
+  for (size_t i = 0; i < associations_.size(); ++i) {
+    const Association& association = associations_[i];
+    if (!association.matched) continue;
     const Patch& patch = sweep_.patches[i];
     const Eigen::Vector3d lever = poses[patch.slot].R_map_lidar * patch.mean;
-    const Eigen::Vector3d p = lever + poses[patch.slot].t_map_lidar;
-    Association& association = associations_[i];
-    if ((p - association.asked).squaredNorm() > kReuseM * kReuseM) {
-      association = {p, map_.Find(p)};
-      association.plane.found &= LiesFlat(patch, poses[patch.slot].R_map_lidar.transpose() * association.plane.normal);
-    }
-    const PlaneMatch& plane = association.plane;
-    if (!plane.found) continue;
-
-    const double residual = plane.normal.dot(p - plane.mean);
-    const double variance = range_var / patch.count + plane.variance + model_var;
+    const double residual = association.normal.dot(lever + poses[patch.slot].t_map_lidar - association.mean);
     // A patch at the border of its surface may hold one side of the noise only: judge it by the noise of single points.
-    const double sigma = std::sqrt(range_var + plane.variance + model_var);
+    const double sigma = association.sigma;
     const double kernel = options_.kernel * sigma + kernel_floor_m_;
     const double ratio = kernel * kernel / (kernel * kernel + residual * residual);
     Vector6 J;
-    J << plane.normal, lever.cross(plane.normal);
-    measured_.Add(patch.slot, J, residual, ratio * ratio / variance);
+    J << association.normal, lever.cross(association.normal);
+    measured_.Add(patch.slot, J, residual, ratio * ratio * association.information);
     ++matched;
     if (std::abs(residual) < kInlier * sigma + kernel_floor_m_) {
       ++inliers;
       squares += residual * residual;
-      normalised += residual * residual / (range_var + plane.variance + model_var);
+      normalised += residual * residual / (sigma * sigma);
     }
   }
   result_.matched = matched;
@@ -182,13 +210,9 @@ void Registrar::AddPriors(Matrix24& H, Vector24& b) const {
 
 // One Gauss-Newton step; true when it is small beside what the states are uncertain by (Newton's decrement).
 bool Registrar::Step() {
-  result_.measured = measured_.Total();
-  const Observability observability = FindUnobservable(result_.measured, options_.min_direction_share);
-  result_.held = observability.held;
-
   H_.setZero();
   Vector24 b = Vector24::Zero();
-  measured_.AddTo(result_.motion, slots_, observability.projection, H_, b);
+  measured_.AddTo(result_.motion, slots_, H_, b);
   AddPriors(H_, b);
   const Vector24 delta = -H_.ldlt().solve(b);
   result_.motion = MotionSegment(Add(result_.motion.from(), delta.head<12>()),
@@ -202,6 +226,8 @@ void Registrar::Summarise() {
     return;
   }
   result_.belief = {result_.motion.to(), MarginaliseFrom(H_)};
+  result_.measured = measured_.Total();
+  result_.unobservable = UnobservableDirections(result_.measured, options_.min_direction_share);
 }
 
 }  // namespace

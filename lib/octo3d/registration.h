@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "octo3d/motion.h"
+#include "octo3d/observability.h"
 #include "octo3d/options.h"
 #include "octo3d/patches.h"
 #include "octo3d/surfel_map.h"
@@ -31,8 +32,7 @@ struct RegistrationResult {
   StateBelief belief;                  // of motion.to(), with `from` marginalised out
   StateBelief prediction;              // the same without the sweep's points
   Matrix6 measured = Matrix6::Zero();  // the sweep's own information about its pose: translation, rotation
-  Eigen::Matrix<double, 6, Eigen::Dynamic> held{
-      6, 0};  // unit directions (translation, rotation) the sweep does not observe
+  Directions unobservable{6, 0};       // what the sweep does not show
   int iterations = 0;
   int matched = 0;                   // patches that met a surfel
   double inlier_ratio = 0.0;         // of the matched: residual within the kernel
@@ -54,7 +54,7 @@ MotionSegment PredictMotion(const StateBelief& from, const RelativeMotion& hint,
 //   sum_i w_i (n_i^T (T(t_i) p_i - q_i))^2 + |from - belief|^2 + |motion prior|^2 + |relative motion|^2,
 // w_i = Geman-McClure weight / (range noise / count + plane variance + model error). The kernel's width starts at what
 // the prediction leaves open and narrows to the noise. Directions the sweep does not observe (eigenvectors of its
-// information with less than min_direction_share) are left to the priors. Pure: same input, same output.
+// information with less than min_direction_share) are reported; the priors hold them. Pure: same input, same output.
 // Starts from `guess`.
 [[nodiscard]] RegistrationResult Register(const SurfelMap& map, const TimedPatches& sweep, const StateBelief& from,
                                           const RelativeMotion& hint, const MotionSegment& guess,

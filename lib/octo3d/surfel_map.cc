@@ -14,7 +14,14 @@ SurfelMap& SurfelMap::operator=(SurfelMap&&) noexcept = default;
 void SurfelMap::Insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& viewpoint) {
   impl_->Insert(points, viewpoint);
 }
-PlaneMatch SurfelMap::Find(const Eigen::Vector3d& p) const { return impl_->Find(p); }
+void SurfelMap::Find(std::span<const Eigen::Vector3d> points, std::span<PlaneMatch> planes) const {
+  impl_->Find(points, planes);
+}
+PlaneMatch SurfelMap::Find(const Eigen::Vector3d& p) const {
+  PlaneMatch plane;
+  impl_->Find({&p, 1}, {&plane, 1});
+  return plane;
+}
 PlaneMatch SurfelMap::FindNear(const Eigen::Vector3d& p, int level) const {
   return impl_->FindNear(p, std::clamp(level, 0, impl_->options.levels - 1));
 }

@@ -57,6 +57,8 @@ class SurfelMap {
   // The best known plane at p: of the cells around p, coarse to fine, the one whose plane is known best there; where
   // none is planar, the nearest face neighbour's. Not found for non-finite p. O(levels).
   PlaneMatch Find(const Eigen::Vector3d& p) const;
+  // The same for many points, about twice as fast: planes[i] for points[i]; equal sizes.
+  void Find(std::span<const Eigen::Vector3d> points, std::span<PlaneMatch> planes) const;
 
   // The plane of the surfel whose mean lies nearest to p, among the cells at `level` (0: leaves) around p and next to
   // it, and their children. Reaches at least one cell's edge far: for matching from a rough guess. About 10 to 50 times

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 
 #include "octo3d/surfel_map_impl.h"
 
@@ -29,40 +31,61 @@ const SurfelNode* SurfelMap::Impl::Locate(const Key& key, int level) const {
   return node;
 }
 
-void SurfelMap::Impl::FindOnPath(const Key& key, const Eigen::Vector3d& p, double& best_score, PlaneMatch& best) const {
-  const SurfelNode* node = index.Find(BlockKey(key));
-  for (int level = block_level(); node != nullptr; --level) {
-    const CellPlane& plane = node->cell().plane;
-    if (plane.planar) {
-      const Eigen::Vector3d mean = plane.mean.cast<double>();
-      const double variance = plane.height_var * (1.0 + (p - mean).squaredNorm() * plane.per_extent);
-      const double model_error = options.curvature_per_m * Edge(level) * Edge(level);
-      const double score = variance + model_error * model_error;
-      if (score < best_score) {
-        best_score = score;
-        best = {true, mean, plane.normal.cast<double>(), score};
+// Walks down for all of them at once, so that their waits for memory overlap.
+void SurfelMap::Impl::FindOnPaths(std::span<Query> queries) const {
+  for (Query& query : queries) query.node = index.Find(BlockKey(query.key));
+  for (int level = block_level(); level >= 0; --level) {
+    const double model_error = options.curvature_per_m * Edge(level) * Edge(level);
+    for (Query& query : queries) {
+      if (query.node == nullptr) continue;
+      const CellPlane& plane = query.node->cell().plane;
+      if (plane.planar) {
+        const double distance2 = (query.p - plane.mean.cast<double>()).squaredNorm();
+        const double score = plane.height_var * (1.0 + distance2 * plane.per_extent) + model_error * model_error;
+        if (score < query.best_score) {
+          query.best_score = score;
+          query.best = &plane;
+        }
       }
+      query.node = level > 0 ? query.node->Child(octomap::computeChildIdx(query.key, level - 1)) : nullptr;
+      __builtin_prefetch(query.node);
     }
-    if (level == 0) break;
-    node = node->Child(octomap::computeChildIdx(key, level - 1));
   }
 }
 
-PlaneMatch SurfelMap::Impl::Find(const Eigen::Vector3d& p) const {
-  PlaneMatch best;
-  Key key;
-  if (!ToKey(p, key)) return best;
-  double best_score = std::numeric_limits<double>::infinity();
-  FindOnPath(key, p, best_score, best);
-  if (best.found) return best;
-  // The nearest face of the second finest cell leads to the neighbour.
-  const int level = std::min(1, block_level());
-  const Eigen::Vector3d offset = p - Centre(key, level);
-  int axis = 0;
-  offset.cwiseAbs().maxCoeff(&axis);
-  key[axis] = static_cast<uint16_t>(key[axis] + (offset[axis] < 0.0 ? -1 : 1) * (1 << level));
-  FindOnPath(key, p, best_score, best);
-  return best;
+void SurfelMap::Impl::Find(std::span<const Eigen::Vector3d> points, std::span<PlaneMatch> planes) const {
+  std::array<Query, kBatch> queries;
+  for (size_t first = 0; first < points.size(); first += kBatch) {
+    const size_t size = std::min(kBatch, points.size() - first);
+    FindBatch(points.subspan(first, size), planes.subspan(first, size), queries);
+  }
+}
+
+void SurfelMap::Impl::FindBatch(std::span<const Eigen::Vector3d> points, std::span<PlaneMatch> planes,
+                                std::span<Query> queries) const {
+  size_t size = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    planes[i] = {};
+    Query query{.index = i, .p = points[i]};
+    if (ToKey(query.p, query.key)) queries[size++] = query;
+  }
+  queries = queries.first(size);
+  FindOnPaths(queries);
+  const auto missed = std::partition(queries.begin(), queries.end(), [](const Query& q) { return q.best != nullptr; });
+  const std::span<Query> others(missed, queries.end());
+  for (Query& query : others) {
+    // The nearest face of the second finest cell leads to the neighbour.
+    const int level = std::min(1, block_level());
+    const Eigen::Vector3d offset = query.p - Centre(query.key, level);
+    int axis = 0;
+    offset.cwiseAbs().maxCoeff(&axis);
+    query.key[axis] = static_cast<uint16_t>(query.key[axis] + (offset[axis] < 0.0 ? -1 : 1) * (1 << level));
+  }
+  FindOnPaths(others);
+  for (const Query& query : queries) {
+    if (query.best == nullptr) continue;
+    planes[query.index] = {true, query.best->mean.cast<double>(), query.best->normal.cast<double>(), query.best_score};
+  }
 }
 
 PlaneMatch SurfelMap::Impl::FindNear(const Eigen::Vector3d& p, int level) const {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "octo3d/block_index.h"
@@ -25,7 +27,7 @@ class SurfelMap::Impl {
 
   void Insert(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& viewpoint);
   void Restore(std::span<const LeafRecord> leaves, std::span<const Eigen::Vector3f> seen_from);
-  PlaneMatch Find(const Eigen::Vector3d& p) const;
+  void Find(std::span<const Eigen::Vector3d> points, std::span<PlaneMatch> planes) const;
   PlaneMatch FindNear(const Eigen::Vector3d& p, int level) const;
   std::vector<Surfel> ChangedSince(uint32_t since) const;
   std::vector<Surfel> InTurn(size_t& turn, size_t count) const;
@@ -44,6 +46,16 @@ class SurfelMap::Impl {
     SurfelNode* node;
     Key key;
   };
+  // A walk down to the cell of a point, and the best plane met on the way.
+  struct Query {
+    size_t index = 0;
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    Key key{};
+    const SurfelNode* node = nullptr;
+    const CellPlane* best = nullptr;
+    double best_score = std::numeric_limits<double>::infinity();
+  };
+  static constexpr size_t kBatch = 16;
 
   double Edge(int level) const { return options.leaf_m * (1 << level); }
   int block_level() const { return options.levels - 1; }
@@ -62,7 +74,8 @@ class SurfelMap::Impl {
   void SumChildren(SurfelNode* node, int level) const;
   void Refit(SurfelNode* node, const Key& key, int level) const;
   bool IsPlanar(const PointStatistics& statistics, const PlaneFit& fit) const;
-  void FindOnPath(const Key& key, const Eigen::Vector3d& p, double& best_score, PlaneMatch& best) const;
+  void FindBatch(std::span<const Eigen::Vector3d> points, std::span<PlaneMatch> planes, std::span<Query> queries) const;
+  void FindOnPaths(std::span<Query> queries) const;
   Key BlockCorner(uint64_t block_key) const;
   bool Collect(const SurfelNode* node, const Key& key, int level, uint32_t since, std::vector<Surfel>& surfels) const;
   Surfel ToSurfel(const SurfelCell& cell, const Key& key, int level) const;

@@ -34,15 +34,15 @@ Matrix6 SweepInformation::Total() const {
   return H;
 }
 
-void SweepInformation::AddTo(const MotionSegment& motion, const TimeSlots& slots, const Matrix6& projection,
-                             Eigen::Matrix<double, 24, 24>& H, Eigen::Matrix<double, 24, 1>& b) const {
+void SweepInformation::AddTo(const MotionSegment& motion, const TimeSlots& slots, Eigen::Matrix<double, 24, 24>& H,
+                             Eigen::Matrix<double, 24, 1>& b) const {
   for (int i = 0; i < kBins; ++i) {
     if (!bins_[i].used) continue;
     const double middle_slot = (i + 0.5) * kSlotsPerBin - 0.5;
     const double dt_us = slots.MiddleUs(middle_slot);
     const Eigen::Vector4d h = motion.Influence(1.0 + 1e-6 * dt_us / motion.duration_s());
-    const Matrix6 H_bin = projection * bins_[i].Full() * projection.transpose();
-    const Vector6 b_bin = projection * Eigen::Map<const Vector6>(bins_[i].b.data());
+    const Matrix6 H_bin = bins_[i].Full();
+    const Eigen::Map<const Vector6> b_bin(bins_[i].b.data());
     for (int row = 0; row < 4; ++row) {
       for (int column = 0; column < 4; ++column) H.block<6, 6>(6 * row, 6 * column) += h[row] * h[column] * H_bin;
       b.segment<6>(6 * row) += h[row] * b_bin;

@@ -24,8 +24,8 @@ class SweepInformation {
   Matrix6 Total() const;
 
   // Adds to H and b (states from, to: 12 + 12), after projecting every bin by P: P H P, P b.
-  void AddTo(const MotionSegment& motion, const TimeSlots& slots, const Matrix6& projection,
-             Eigen::Matrix<double, 24, 24>& H, Eigen::Matrix<double, 24, 1>& b) const;
+  void AddTo(const MotionSegment& motion, const TimeSlots& slots, Eigen::Matrix<double, 24, 24>& H,
+             Eigen::Matrix<double, 24, 1>& b) const;
 
  private:
   struct Bin {

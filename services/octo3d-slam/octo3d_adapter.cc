@@ -20,7 +20,7 @@ int8_t StatusOnTheBus(const octo3d::Result& result) {
       return slam_diagnostics_t::INITIALIZING;
     case SweepStatus::kTracking:
       if (result.searched) return slam_diagnostics_t::RELOCALIZED;
-      return result.held.cols() > 0 ? slam_diagnostics_t::DEGENERATE : slam_diagnostics_t::TRACKING;
+      return result.unobservable.cols() > 0 ? slam_diagnostics_t::DEGENERATE : slam_diagnostics_t::TRACKING;
     case SweepStatus::kStale:
       return slam_diagnostics_t::SKIPPED;
     case SweepStatus::kDoubtful:
@@ -37,9 +37,9 @@ void Describe(const octo3d::Result& result, double range_noise_m, slam_diagnosti
   diagnostics.inlier_ratio = static_cast<float>(result.inlier_ratio);
   diagnostics.residual_rms = static_cast<float>(result.residual_m);
   diagnostics.range_sigma = static_cast<float>(range_noise_m);
-  for (Eigen::Index i = 0; i < result.held.cols(); ++i) {
+  for (Eigen::Index i = 0; i < result.unobservable.cols(); ++i) {
     Eigen::Index axis = 0;
-    result.held.col(i).cwiseAbs().maxCoeff(&axis);
+    result.unobservable.col(i).cwiseAbs().maxCoeff(&axis);
     diagnostics.unobservable |= 1 << axis;
   }
   SetStages(octo3d::kStageNames, result.stage_ms, diagnostics);

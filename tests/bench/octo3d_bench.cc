@@ -54,7 +54,7 @@ void Episode(benchmark::State& state, const std::string& world, SpatialEpisodeOp
       ms.push_back(ThreadMs() - start_ms);
       episode_ms += ms.back();
       not_tracked += i > 0 && result.status != SweepStatus::kTracking;
-      degenerate += result.held.cols() > 0;
+      degenerate += result.unobservable.cols() > 0;
       estimate.push_back({result.utime, result.T_map_body});
       truth.push_back({frame.sweep.utime, frame.T_world_body});
     }

@@ -101,8 +101,8 @@ TEST(Pipeline, SaysWhatACorridorDoesNotShow) {
     const Result result = pipeline.Process(sweep);
     if (i == 1) continue;
     ASSERT_EQ(result.status, SweepStatus::kTracking);
-    ASSERT_EQ(result.held.cols(), 1);
-    EXPECT_GT(std::abs(result.held(0, 0)), 0.99);
+    ASSERT_EQ(result.unobservable.cols(), 1);
+    EXPECT_GT(std::abs(result.unobservable(0, 0)), 0.99);
     EXPECT_GT(result.covariance(0, 0), 10.0 * result.covariance(1, 1));
   }
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace lcmslam::octo3d {
@@ -48,6 +49,22 @@ TEST(PointStatistics, MergingEqualsAddingAboutTheOtherReference) {
     EXPECT_LT((merged.sum - expected.sum).norm(), 1e-12);
     EXPECT_LT((merged.Covariance() - expected.Covariance()).norm(), 1e-13);
   }
+}
+
+TEST(PointStatistics, IsThickerAsTheLeastEigenvalueSays) {
+  int thicker = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto turn = Eigen::AngleAxisd(0.1 * seed, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d C = turn * CovarianceOf(RandomPoints(seed, 40, {0.1, 0.2, 0.05})) * turn.transpose();
+    const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(C).eigenvalues()[0];
+    const double limit = 0.05 * 0.05 / 3.0;
+    EXPECT_EQ(IsThicker(C, limit), least > limit);
+    thicker += least > limit;
+  }
+  EXPECT_GT(thicker, 20);
+  EXPECT_LT(thicker, 180);
+  EXPECT_FALSE(IsThicker(Eigen::Matrix3d::Zero(), 0.0));  // a single point
 }
 
 TEST(PointStatistics, MergingNothingChangesNothing) {

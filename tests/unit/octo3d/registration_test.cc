@@ -83,7 +83,7 @@ TEST(Register, FindsTheMotionWithinTheSweep) {
       Register(map, {patches, kFirstDtUs, kDurationS}, belief, {}, PredictMotion(belief, {}, kDurationS), options);
   EXPECT_EQ(result.status, RegistrationStatus::kConverged);
   EXPECT_GT(result.inlier_ratio, 0.99);
-  EXPECT_EQ(result.held.cols(), 0);
+  EXPECT_EQ(result.unobservable.cols(), 0);
   for (const double s : {0.0, 0.5, 1.0}) {
     EXPECT_LT((result.motion.At(s).translation - truth.At(s).translation).norm(), 0.002) << s;
     EXPECT_LT(AngleBetween(result.motion.At(s).rotation, truth.At(s).rotation), 0.002) << s;
@@ -142,7 +142,7 @@ TEST(SweepInformation, AgreesWithDenseNormalEquations) {
     b_dense += weight * residual * row;
     total += weight * J * J.transpose();
   }
-  information.AddTo(motion, slots, Matrix6::Identity(), H, b);
+  information.AddTo(motion, slots, H, b);
   EXPECT_LT((information.Total() - total).norm(), 1e-9 * total.norm());
   EXPECT_LT((H - H_dense).norm(), 5e-3 * H_dense.norm()) << "times are rounded to bins";
   EXPECT_LT((b - b_dense).norm(), 5e-2 * b_dense.norm());

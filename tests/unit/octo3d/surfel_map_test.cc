@@ -79,6 +79,30 @@ TEST(SurfelMap, FindsThePlaneThatWasInserted) {
   }
 }
 
+TEST(SurfelMap, FindsManyPlanesAsItFindsEach) {
+  SurfelMap map{MapOptions{}};
+  map.Insert(NoisyPlane(7, 20000, {0, 0, 0}, {0, 0, 1}, 2.0, 0.03), Eigen::Vector3f(0, 0, 5));
+  std::vector<Eigen::Vector3d> points{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {50, 50, 50}};
+  // Some next door to the plane's cells, some beyond its border.
+  for (const Eigen::Vector3f& p : NoisyPlane(8, 101, {0, 0, 0.1}, {0, 0, 1}, 2.3, 0.2))
+    points.push_back(p.cast<double>());
+  std::vector<PlaneMatch> planes(points.size());
+  map.Find(points, planes);
+  int found = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    SCOPED_TRACE(i);
+    const PlaneMatch alone = map.Find(points[i]);
+    EXPECT_EQ(planes[i].found, alone.found);
+    EXPECT_EQ(planes[i].mean, alone.mean);
+    EXPECT_EQ(planes[i].normal, alone.normal);
+    EXPECT_EQ(planes[i].variance, alone.variance);
+    found += alone.found;
+  }
+  EXPECT_GT(found, 50);
+  EXPECT_LT(found, 102);
+  map.Find({}, {});
+}
+
 TEST(SurfelMap, VarianceOfAPlaneIsThatOfTheFit) {
   // Many independent maps: the spread of the found height about the truth must be what the match claims (less its model
   // error).
