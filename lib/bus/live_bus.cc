@@ -1,5 +1,6 @@
 #include "bus/live_bus.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <regex>
 
@@ -19,6 +20,8 @@ using std::chrono::steady_clock;
 
 constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152";
 constexpr milliseconds kReceiveTimeout{20};
+constexpr milliseconds kHoldUp{100};       // a thread that is ready to run waits no longer
+constexpr milliseconds kBacklog{100};      // what came meanwhile has then been read
 constexpr milliseconds kQuiet{100};        // no message for this long: the bus is drained
 constexpr milliseconds kDrainLimit{2000};  // a bus that never falls silent
 
@@ -101,7 +104,7 @@ LiveReceiver::LiveReceiver(LiveBus& bus, const std::string& channels, size_t cap
         ++self->dropped_;
         return;
       }
-      self->queue_.push_back({buffer->recv_utime, channel, {data, data + buffer->data_size}});
+      self->queue_.push_back({self->ArrivalUtime(buffer->recv_utime), channel, {data, data + buffer->data_size}});
       self->arrived_.notify_one();
     }
   };
@@ -117,10 +120,23 @@ LiveReceiver::~LiveReceiver() {
   thread_.join();
 }
 
+// liblcm 1.3.1 has the kernel's time of arrival only for buffers that it uses for the first time, else the time when it
+// read the message. The two differ when this process was kept from running: then a message may be as old as the
+// hold-up.
+int64_t LiveReceiver::ArrivalUtime(int64_t read_utime) {
+  const auto now = steady_clock::now();
+  if (now - turn_ > kReceiveTimeout + kHoldUp) {
+    hold_up_utime_ = WallClockUtime() - std::chrono::duration_cast<std::chrono::microseconds>(now - turn_).count();
+    backlog_end_ = now + kBacklog;
+  }
+  return now < backlog_end_ ? std::min(read_utime, hold_up_utime_) : read_utime;
+}
+
 void LiveReceiver::Receive() {
   auto last_message = steady_clock::now();
   std::optional<steady_clock::time_point> drain_start;
   while (true) {
+    turn_ = steady_clock::now();
     const int handled = bus_.lcm().handleTimeout(static_cast<int>(kReceiveTimeout.count()));
     const auto now = steady_clock::now();
     if (handled > 0) last_message = now;

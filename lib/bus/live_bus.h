@@ -56,9 +56,14 @@ class LiveReceiver {
 
  private:
   void Receive();
+  int64_t ArrivalUtime(int64_t read_utime);
 
   LiveBus& bus_;
   size_t capacity_;
+  // Of the receiving thread alone:
+  std::chrono::steady_clock::time_point turn_;         // since when it waits for the next message
+  std::chrono::steady_clock::time_point backlog_end_;  // until then come messages that arrived during a hold-up,
+  int64_t hold_up_utime_ = 0;                          // which began here
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<Event> queue_;

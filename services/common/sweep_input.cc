@@ -31,9 +31,12 @@ Handled SweepInput::OfferExtrinsics(const Event& event) {
 }
 
 void SweepInput::Pass(const std::vector<Sweep>& sweeps) {
-  health_.CountMissing(channel_, assembler_.missing() - missing_counted_);
+  const int64_t missing_chunks = assembler_.missing() - missing_counted_;
+  health_.CountMissing(channel_, missing_chunks);
   missing_counted_ = assembler_.missing();
   for (const Sweep& sweep : sweeps) {
+    const int64_t skipped_sweeps = skipped_.Missing(sweep.utime);
+    if (missing_chunks == 0) health_.CountMissing(channel_, skipped_sweeps);  // else these are the same
     health_.NoteStamp(sweep.utime);
     gate_.Pass(sweep);
   }

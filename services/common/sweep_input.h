@@ -12,7 +12,8 @@ namespace lcmslam {
 
 // Sweeps of one multi-line lidar from point_cloud_chunk_t: put together whatever chunks got lost, in order, and handed
 // over once it is known how the lidar is mounted: the configured pose, else what arrives on <channel>_EXTRINSICS, for
-// which sweeps wait (MountingGate). Chunks that never came are counted as missing in `health`.
+// which sweeps wait (MountingGate). Chunks that never came are counted as missing in `health`,
+// and sweeps that the lidar itself skipped.
 class SweepInput {
  public:
   SweepInput(std::string channel, bool mounting_configured, MountingGate<Sweep>::MountingHandler on_mounting,
@@ -32,6 +33,7 @@ class SweepInput {
   Health& health_;
   SweepAssembler assembler_;
   int64_t missing_counted_ = 0;
+  GapCounter skipped_;
 };
 
 }  // namespace lcmslam

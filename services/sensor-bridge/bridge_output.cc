@@ -61,7 +61,12 @@ void BridgeOutput::Publish(int64_t utime, const std::string& channel, Bytes data
   bus_->Publish(channel, data);
   health_.CountReceived();
   health_.CountProcessed();
+  health_.NoteStamp(utime);
   PublishStatusOnceASecond();
+}
+
+void BridgeOutput::Idle() {
+  if (bus_) PublishStatusOnceASecond();
 }
 
 void BridgeOutput::Finish() {

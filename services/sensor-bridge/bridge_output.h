@@ -42,6 +42,10 @@ class BridgeOutput {
   void Publish(int64_t utime, const std::string& channel, const M& message) {
     Publish(utime, channel, Bytes(Encode(message)));
   }
+  // Nothing to publish at the moment: the status is due all the same.
+  void Idle();
+  // What its status says of the input; what is published is counted already.
+  Health& health() { return health_; }
   // Hands a log to the operating system.
   void Finish();
 

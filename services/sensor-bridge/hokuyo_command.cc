@@ -58,14 +58,18 @@ class ScipSensor {
   ScipReplyReader reader_;
 };
 
-void PublishScans(ScipSensor& sensor, const ScipParameters& parameters, SensorPublisher& publisher) {
+void PublishScans(ScipSensor& sensor, const ScipParameters& parameters, BridgeOutput& output,
+                  SensorPublisher& publisher) {
   const ScipReply begun = sensor.Ask(ScipScanCommand(parameters));
   if (begun.status != "00") throw CommandError(ExitCode::kRuntime, "no scans: status " + begun.status);
   while (!StopRequested()) {
+    output.Idle();
     const std::optional<ScipReply> reply = sensor.Next();
     if (!reply || !reply->command.starts_with("MD")) continue;
     if (reply->status != "99") throw CommandError(ExitCode::kRuntime, "scans end with status " + reply->status);
-    publisher.PublishScan(kMainLidarChannel, DecodeScipScan(*reply, parameters, WallClockUtime()));
+    const PlanarScan scan = DecodeScipScan(*reply, parameters, WallClockUtime());
+    output.health().NoteInput(kMainLidarChannel, scan.utime);
+    publisher.PublishScan(kMainLidarChannel, scan);
     publisher.Flush();
   }
 }
@@ -84,7 +88,7 @@ ExitCode HearHokuyo(const HokuyoOptions& options) {
     const ScipParameters parameters = ParseScipParameters(sensor.Ask("PP\n"));
     sensor.Ask("BM\n");
     fmt::print(stderr, "READY\n");
-    PublishScans(sensor, parameters, publisher);
+    PublishScans(sensor, parameters, output, publisher);
     sensor.Send(kScipStop);
   } catch (const BadInput& error) {
     throw CommandError(ExitCode::kBadInput, error.what());

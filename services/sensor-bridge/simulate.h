@@ -20,7 +20,8 @@ struct PoseBound {
 // The Cramer-Rao bounds of an episode's scans.
 class BoundSummary {
  public:
-  // Writes utime_us,position_m,rotation_rad to `csv` if there is one: a row per scan, inf where it does not fix the pose.
+  // Writes utime_us,position_m,rotation_rad to `csv` if there is one: a row per scan, inf where it does not fix the
+  // pose.
   explicit BoundSummary(std::ostream* csv = nullptr);
 
   // None: the scan does not fix the pose.

@@ -10,7 +10,7 @@ namespace lcmslam {
 
 struct ReceivedDatagram {
   std::span<const uint8_t> payload;  // valid until the next call
-  int64_t received_utime = 0;        // us, by this host's clock
+  int64_t received_utime = 0;        // us, by this host's clock; when it arrived, not when it was read
 };
 
 // Hears one UDP port on all interfaces (IPv4). Throws CommandError (kRuntime) where the port is taken or the network

@@ -20,6 +20,8 @@ class VelodyneBridge {
 
   int64_t sweeps() const { return sweeps_; }  // published
   // "293 packets, 2 of them not to be decoded".
+  int64_t refused() const { return decoder_.refused(); }            // packets
+  int64_t packet_utime() const { return decoder_.packet_utime(); }  // by the sensor's clock, of the last one decoded
   std::string Summary() const;
 
  private:

@@ -5,8 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bus/health.h"
+#include "bus/live_bus.h"
 #include "bus/signals.h"
+#include "geometry/utime.h"
 #include "sensor-bridge/bridge_output.h"
+#include "sensor-bridge/lidar_channels.h"
 #include "sensor-bridge/sensor_publisher.h"
 #include "sensor-bridge/udp_receiver.h"
 #include "sensor-bridge/velodyne_bridge.h"
@@ -23,6 +27,17 @@ struct VelodyneOptions {
   OutputOptions output;
 };
 
+// Hands the packet on and notes for the status whether packets before it are missing, and how late it is.
+void Take(const ReceivedDatagram& packet, uint16_t port, VelodyneBridge& bridge, Health& health) {
+  const int64_t begin_utime = WallClockUtime(), refused = bridge.refused();
+  bridge.Add(packet.payload, packet.received_utime, port);
+  if (bridge.refused() > refused) return health.CountRefused();
+  health.NoteInput(kPacketChannel, bridge.packet_utime());
+  const int64_t end_utime = WallClockUtime();
+  health.NoteLatency(1e-3 * static_cast<double>(UtimeDifference(end_utime, packet.received_utime)),
+                     1e-3 * static_cast<double>(UtimeDifference(end_utime, begin_utime)));
+}
+
 ExitCode HearVelodyne(const VelodyneOptions& options) {
   CatchStopSignals();
   UdpReceiver receiver(options.port);
@@ -32,9 +47,10 @@ ExitCode HearVelodyne(const VelodyneOptions& options) {
   if (!options.output.quiet) fmt::print(stderr, "sensor-bridge: hears UDP port {}\n", receiver.port());
   fmt::print(stderr, "READY\n");
   while (!StopRequested()) {
+    output.Idle();
     const std::optional<ReceivedDatagram> datagram = receiver.Receive(kLookForSignals);
     if (!datagram || datagram->payload.size() != kVelodynePacketBytes) continue;  // position packets, say
-    bridge.Add(datagram->payload, datagram->received_utime, receiver.port());
+    Take(*datagram, receiver.port(), bridge, output.health());
     publisher.Flush();
   }
   output.Finish();

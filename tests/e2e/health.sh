@@ -1,104 +1,114 @@
 #!/usr/bin/env bash
-# sdf2d-slam's status tells within two seconds, with numbers, when its input stops, skips, comes late or floods it; and it obeys
-# SLAM_COMMAND while it runs.
+# The status of every service tells within two seconds, with numbers, when its input stops, skips, comes late or floods it; and
+# the SLAM services obey SLAM_COMMAND while they run.
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
+. "$root/tests/support/statuses.sh"
+
+planar=(sdf2d-slam occupancy2d-slam) spatial=(octo3d-slam cloud3d-slam) judges=(ground-truth-logger evaluator)
+declare -A channel=([sdf2d-slam]=LIDAR_2D [occupancy2d-slam]=LIDAR_2D [octo3d-slam]=LIDAR_3D [cloud3d-slam]=LIDAR_3D
+  [ground-truth-logger]=GROUND_TRUTH [evaluator]=GROUND_TRUTH)
+declare -A map=([sdf2d-slam]=.sdf [occupancy2d-slam]=.pgm [octo3d-slam]=.surfels [cloud3d-slam]=.ply)
 
 main() {
-  episode good 1000000 8
-  episode after_a_gap 10000000 10 # a second later: 10 scans are missing
-  episode flood 20000000 300
-  episode later 400000000 4
-
   claim_bus
-  start logger logger.log lcm-logger --quiet --flush-interval=50 --lcm-url="$lcm_url" heard.lcm
-  wait_until logger listens "${pid_of[logger]}"
-  mkdir out
-  start slam slam.log "$bin/sdf2d-slam" --out out --lcm-url "$lcm_url"
-  wait_until slam says_ready slam
-
-  play good
-  check "well while scans come" hear OK 'processed >= 80'
-  check "starved: waiting, for how long" hear WAITING 'text ~ /no input for 1 s/'
-  check "the first word of it came within two seconds" at_most "$(seconds_to 'text ~ /no input/')" 2
-  play after_a_gap &
-  check "skipped: how many, and where" hear DEGRADED 'missing == 10 && text ~ /10 missing on LIDAR_2D/'
-  hold_up
-  check "slowed: how late" hear any 'p99 >= 1000'
-  wait "$!"
-  play flood --speed=0
-  check "flooded: how many were lost" hear DEGRADED 'dropped + missing > 100'
-  check_commands
-  stop slam
+  log_statuses
+  check_group room5_low 300 "${planar[@]}" "${judges[@]}"
+  check_group hall10_low 15 "${spatial[@]}"
   stop logger
   finish_test
 }
 
-# episode NAME START_UTIME SECONDS: 10 scans a second.
-episode() {
-  "$bin/sensor-bridge" simulate --episode "$root/replay/episodes/room5_low.pbtxt" --quiet --log-out "$1.lcm" \
-    --set "start_utime=$2" --set "duration_s=$3" >/dev/null
+# check_group EPISODE FLOOD_SECONDS SERVICE...: services that hear the same logs.
+check_group() {
+  local episode=$1 flood_s=$2 service
+  shift 2
+  make_log good "$episode" 1000000 6
+  make_log after_a_gap "$episode" 8000000 3 # a second later: 10 scans are missing
+  make_log held_up "$episode" 11000000 8
+  make_log flood "$episode" 20000000 "$flood_s"
+  make_log later "$episode" 400000000 4
+  for service in "$@"; do start_service "$service"; done
+
+  play good
+  for service in "$@"; do
+    check "$service: well while its input comes" hear "$service" OK 'processed >= 50'
+    check "$service: starved, and for how long" hear "$service" WAITING 'text ~ /no input for 1 s/'
+    check "$service: the first word of it came within two seconds" at_most "$(silence_before_word "$service")" 2
+  done
+  play after_a_gap
+  for service in "$@"; do
+    check "$service: skipped: how much, and where" hear "$service" DEGRADED 'missing >= 9 && text ~ /[0-9]+ missing on '"${channel[$service]}"'/'
+  done
+  play held_up &
+  local player=$!
+  hold_up "$@"
+  for service in "$@"; do check "$service: slowed: how late" hear "$service" any 'p99 >= 1000'; done
+  wait "$player"
+  check_flooded "$@"
+  for service in "$@"; do
+    if [[ $service == *-slam ]]; then check_commands "$service"; fi
+    stop "$service"
+  done
+}
+
+# make_log NAME EPISODE START_UTIME SECONDS: 10 scans or sweeps a second.
+make_log() {
+  "$bin/sensor-bridge" simulate --episode "$root/replay/episodes/$2.pbtxt" --quiet --log-out "$1.lcm" \
+    --set "start_utime=$3" --set "duration_s=$4" >/dev/null
 }
 
 # play NAME [OPTION...]
 play() { lcm-logplayer --lcm-url="$lcm_url" "${@:2}" "$1.lcm" >player.log 2>&1; }
 
-# Keeps the service from working for over a second while scans arrive.
+start_service() {
+  local options=(--out out)
+  [[ $1 != evaluator ]] || options=(--estimate SDF2D_POSE)
+  mkdir -p out
+  start "$1" "$1.log" "$bin/$1" "${options[@]}" --lcm-url "$lcm_url"
+  wait_until "$1" says_ready "$1"
+}
+
+# Keeps the services from working for well over a second of their input, which may be late to begin.
 hold_up() {
-  kill -STOP "${pid_of[slam]}"
-  sleep 1.3
-  kill -CONT "${pid_of[slam]}"
+  local service
+  for service in "$@"; do kill -STOP "${pid_of[$service]}"; done
+  sleep 4
+  for service in "$@"; do kill -CONT "${pid_of[$service]}"; done
 }
 
-# said STATE CONDITION: whether a status had this state (or any) and the condition, in awk's words.
-said() { [[ -n $(first_time "$@") ]]; }
-
-# hear STATE CONDITION: waits for such a status.
-hear() {
-  local deadline=$((SECONDS + 10))
-  until said "$@"; do
-    ((SECONDS < deadline)) || { "$bin/status_lines" heard.lcm | tail -n 12 && return 1; }
-    sleep 0.1
-  done
-}
-
-# Log time of the first such status; nothing before there is one.
-first_time() {
-  "$bin/status_lines" heard.lcm | awk -F '\t' -v want="$1" '$2 != "sdf2d-slam" { next }
-    { state = $3; processed = $5; dropped = $6; missing = $8; p99 = $9; text = $11 }
-    (want == "any" || state == want) && ('"$2"') { print $1; exit }'
-}
-
-# Seconds from the first status that had all scans to the first with this.
-seconds_to() {
-  local last
-  last=$("$bin/status_lines" heard.lcm | awk -F '\t' '$2 == "sdf2d-slam" && $5 >= 80 { print $1; exit }')
-  awk -v from="$last" -v to="$(first_time any "$1")" 'BEGIN { print to - from }'
+# A flood that they are kept from taking in: what the kernel had no room for shows when the next message comes.
+check_flooded() {
+  local service
+  for service in "$@"; do kill -STOP "${pid_of[$service]}"; done
+  play flood --speed=0
+  for service in "$@"; do kill -CONT "${pid_of[$service]}"; done
+  play later
+  for service in "$@"; do check "$service: flooded: how much was lost" hear "$service" any 'dropped + missing > 100'; done
 }
 
 check_commands() {
-  command_slam reset
-  check "reset: it says so" hear any 'text ~ /reset/'
-  command_slam pose 10 20 1.5
-  check "set pose: it says so" hear any 'text ~ /pose set/'
+  local service=$1
+  command_slam "$service" reset
+  check "$service: reset: it says so" hear "$service" any 'text ~ /reset/'
+  command_slam "$service" pose 10 20 1.5
+  check "$service: set pose: it says so" hear "$service" any 'text ~ /pose set/'
   play later
-  check "set pose: it goes on from there" at_most "$(distance_of_last_pose 10 20)" 5
-  command_slam save kept
-  check "save: it says so" hear any 'text ~ /saved kept/'
-  check "save: the map is there" test -s kept.sdf -a -s kept.pgm -a -s kept.yaml
-  command_slam load kept.sdf
-  check "load: it says so" hear any 'text ~ /loaded kept/'
+  check "$service: set pose: it goes on from there" wait_until "$service" last_pose_is_near "$service" 10 20
+  command_slam "$service" save "kept-$service"
+  check "$service: save: it says so" hear "$service" any 'text ~ /saved kept/'
+  check "$service: save: the map is there" test -s "kept-$service${map[$service]}"
 }
 
+# command_slam SERVICE COMMAND ARGUMENT...
 command_slam() {
   "$bin/command_log" command.lcm "$@"
   play command
 }
 
-# From X Y, once the trajectory has been written.
-distance_of_last_pose() {
-  sleep 1.5
-  tail -n 1 out/sdf2d-slam_tum.txt | awk -v x="$1" -v y="$2" '{ print sqrt(($2 - x) ^ 2 + ($3 - y) ^ 2) }'
+# last_pose_is_near SERVICE X Y: the last one written is within 5 m.
+last_pose_is_near() {
+  tail -n 1 "out/$1_tum.txt" | awk -v x="$2" -v y="$3" '{ exit !(sqrt(($2 - x) ^ 2 + ($3 - y) ^ 2) < 5) }'
 }
 
 main "$@"

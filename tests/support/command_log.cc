@@ -1,4 +1,5 @@
-// command_log OUT.lcm save|load|reset|pose [PATH | X Y YAW]: an LCM log of one SLAM_COMMAND, for lcm-logplayer to send.
+// command_log OUT.lcm SERVICE save|load|reset|pose [PATH | X Y YAW]: an LCM log of one SLAM_COMMAND to that service, for
+// lcm-logplayer to send.
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -17,20 +18,21 @@ int main(int argc, char** argv) {
                                             {"load", slam_command_t::LOAD},
                                             {"reset", slam_command_t::RESET},
                                             {"pose", slam_command_t::SET_POSE}};
-  const bool is_pose = argc == 6 && std::string(argv[2]) == "pose";
-  if (argc < 3 || !kinds.contains(argv[2]) || (argc > 4 && !is_pose)) {
-    fmt::print(stderr, "usage: command_log OUT.lcm save|load|reset|pose [PATH | X Y YAW]\n");
+  const bool is_pose = argc == 7 && std::string(argv[3]) == "pose";
+  if (argc < 4 || !kinds.contains(argv[3]) || (argc > 5 && !is_pose)) {
+    fmt::print(stderr, "usage: command_log OUT.lcm SERVICE save|load|reset|pose [PATH | X Y YAW]\n");
     return static_cast<int>(lcmslam::ExitCode::kUsage);
   }
   slam_command_t command{};
-  command.command = kinds.at(argv[2]);
+  command.command = kinds.at(argv[3]);
   command.quat[0] = 1.0;
-  if (argc == 4) command.path = argv[3];
+  if (argc == 5) command.path = argv[4];
+  command.service = argv[2];
   if (is_pose) {
-    command.pos[0] = std::atof(argv[3]);
-    command.pos[1] = std::atof(argv[4]);
-    command.quat[0] = std::cos(0.5 * std::atof(argv[5]));
-    command.quat[3] = std::sin(0.5 * std::atof(argv[5]));
+    command.pos[0] = std::atof(argv[4]);
+    command.pos[1] = std::atof(argv[5]);
+    command.quat[0] = std::cos(0.5 * std::atof(argv[6]));
+    command.quat[3] = std::sin(0.5 * std::atof(argv[6]));
   }
   lcmslam::LogWriter log(argv[1]);
   log.Write(0, "SLAM_COMMAND", lcmslam::Encode(command));

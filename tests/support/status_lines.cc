@@ -1,5 +1,6 @@
 // status_lines LOG: the statuses of all services in an LCM log, a line each: log time (s), service, state, received,
-// processed, dropped, refused, missing, p99 latency (ms), resident memory (MB), text. Separated by tabs.
+// processed, dropped, refused, missing, p99 latency (ms), resident memory (MB), text, dropped by the kernel. Separated
+// by tabs.
 #include <array>
 
 #include <fmt/format.h>
@@ -19,9 +20,9 @@ void PrintStatuses(const char* path) {
     if (!event.channel.ends_with("_STATUS")) continue;
     const auto s = Decode<service_status_t>(event.data);
     if (!s) continue;
-    fmt::print("{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3f}\t{:.1f}\t{}\n", static_cast<double>(event.utime) / 1e6,
+    fmt::print("{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3f}\t{:.1f}\t{}\t{}\n", static_cast<double>(event.utime) / 1e6,
                s->name, kStates.at(static_cast<size_t>(s->state)), s->received, s->processed, s->dropped, s->refused,
-               s->missing, s->latency_p99_ms, s->rss_mb, s->text);
+               s->missing, s->latency_p99_ms, s->rss_mb, s->text, s->kernel_dropped);
   }
 }
 

@@ -129,6 +129,12 @@ TEST_F(SpatialSlamServiceTest, LostChunksAreCountedAndTheRestIsUsed) {
   EXPECT_THAT(calls_, testing::IsSupersetOf({"sweep of 2400", "sweep of 1600"}));
 }
 
+TEST_F(SpatialSlamServiceTest, SweepsThatTheLidarSkippedAreCounted) {
+  for (const int64_t period : {0, 1, 2, 3, 4, 5, 6, 10, 11}) WriteSweep(1000 + 100'000 * period);
+  EXPECT_EQ(RunAndRead("FAKE_POSE").size(), 9U);
+  EXPECT_EQ(missing_, 3);
+}
+
 TEST_F(SpatialSlamServiceTest, TheLastSweepNeedNotBeWhole) {
   WriteSweep(1000, 6000, 1);
   EXPECT_EQ(RunAndRead("FAKE_POSE").size(), 1U);

@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# The status of sensor-bridge, which hears a VLP-16, tells within two seconds, with numbers, when packets stop, are skipped, come
+# late, flood it or are none.
+set -euo pipefail
+. "$(dirname "$0")/../support/script.sh"
+. "$root/tests/support/statuses.sh"
+need_data packets/einride_vlp16.bin
+
+payloads="$data/packets/einride_vlp16.bin" # 1000 of 1206 bytes
+batch=20                                   # fits default kernel buffers
+
+main() {
+  claim_bus
+  log_statuses
+  start bridge bridge.log "$bin/sensor-bridge" velodyne --port 0 --lcm-url "$lcm_url"
+  wait_until bridge says_ready bridge
+  sensor_port=$(sed -n 's/.*hears UDP port //p' bridge.log)
+
+  send_payloads 0 400
+  check "well while packets come" hear sensor-bridge OK 'processed > 0 && missing == 0'
+  check "starved, and for how long" hear sensor-bridge WAITING 'text ~ /no input for 1 s/'
+  check "the first word of it came within two seconds" at_most "$(silence_before_word sensor-bridge)" 2
+  send_payloads 500 1000
+  check "skipped: how many, and where" hear sensor-bridge any 'missing >= 99 && text ~ /missing on LIDAR_3D_PACKET/'
+  kill -STOP "${pid_of[bridge]}"
+  send_batch 0
+  sleep 1.3
+  kill -CONT "${pid_of[bridge]}"
+  check "slowed: how late" hear sensor-bridge any 'p99 >= 1000'
+  dd if=/dev/zero bs=1206 count=3 status=none >"/dev/udp/127.0.0.1/$sensor_port"
+  check "malformed: how many" hear sensor-bridge DEGRADED 'refused == 3'
+  flood
+  check "flooded: how many were lost" hear sensor-bridge any 'kernel_dropped > 100'
+  stop bridge
+  stop logger
+  finish_test
+}
+
+# send_payloads FROM TO: dd writes a block, which is a datagram, at a time.
+send_payloads() {
+  local sent
+  for ((sent = $1; sent < $2; sent += batch)); do
+    send_batch $sent
+    wait_until bridge all_is_read
+  done
+}
+
+send_batch() { dd if="$payloads" bs=1206 skip="$1" count=$batch status=none >"/dev/udp/127.0.0.1/$sensor_port"; }
+
+all_is_read() { [[ $(ss -lunH "sport = :$sensor_port" | awk '{ print $2 }') == 0 ]]; }
+
+# More than any buffer holds, while it cannot read.
+flood() {
+  local i
+  kill -STOP "${pid_of[bridge]}"
+  for ((i = 0; i < 10; i++)); do dd if="$payloads" bs=1206 status=none >"/dev/udp/127.0.0.1/$sensor_port"; done
+  kill -CONT "${pid_of[bridge]}"
+}
+
+main "$@"
