@@ -10,6 +10,15 @@ namespace {
 
 constexpr int64_t kLatestStart = 4'000'000'000'000'000'000;
 
+// All that stands in either.
+PlanarWorld Both(const PlanarWorld& a, const PlanarWorld& b) {
+  std::vector<Segment> walls(a.walls().begin(), a.walls().end());
+  walls.insert(walls.end(), b.walls().begin(), b.walls().end());
+  std::vector<Segment> barriers(a.barriers().begin(), a.barriers().end());
+  barriers.insert(barriers.end(), b.barriers().begin(), b.barriers().end());
+  return PlanarWorld(std::move(walls), std::move(barriers));
+}
+
 }  // namespace
 
 std::string PlanarEpisodeOptions::Validate() const {
@@ -22,20 +31,30 @@ std::string PlanarEpisodeOptions::Validate() const {
   return "";
 }
 
-std::optional<PlanarEpisode> PlanarEpisode::Create(PlanarWorld world, const PlanarEpisodeOptions& options) {
+std::optional<PlanarEpisode> PlanarEpisode::Create(PlanarWorld world, const PlanarEpisodeOptions& options,
+                                                   std::optional<WorldChange> change) {
   if (!options.Validate().empty()) return std::nullopt;
+  const PlanarWorld obstacles = change ? Both(world, change->world) : world;
   std::optional<PlanarMotion> motion =
-      DriveAround(world, options.duration_s, options.start_utime, options.drive, options.seed);
+      DriveAround(obstacles, options.duration_s, options.start_utime, options.drive, options.seed);
   if (!motion) return std::nullopt;
-  return PlanarEpisode(std::move(world), *std::move(motion), options);
+  std::vector<Person> people = SimulatePeople(obstacles, *motion, options.people, options.seed);
+  return PlanarEpisode(std::move(world), std::move(change), *std::move(motion), std::move(people), options);
 }
 
-PlanarEpisode::PlanarEpisode(PlanarWorld world, PlanarMotion motion, const PlanarEpisodeOptions& options)
+PlanarEpisode::PlanarEpisode(PlanarWorld world, std::optional<WorldChange> change, PlanarMotion motion,
+                             std::vector<Person> people, const PlanarEpisodeOptions& options)
     : world_(std::move(world)),
+      change_(std::move(change)),
       motion_(std::move(motion)),
       options_(options),
       odometry_(SimulateOdometry(motion_, options.odometry, options.seed)),
-      people_(SimulatePeople(world_, motion_, options.people, options.seed)) {}
+      people_(std::move(people)) {}
+
+const PlanarWorld& PlanarEpisode::WorldAt(int64_t utime) const {
+  const bool changed = change_ && static_cast<double>(utime - options_.start_utime) >= 1e6 * change_->at_s;
+  return changed ? change_->world : world_;
+}
 
 int PlanarEpisode::num_frames() const {
   const PlanarLidarModel& model = options_.lidar.model;
@@ -47,7 +66,7 @@ PlanarFrame PlanarEpisode::Frame(int i) const {
   const int64_t utime = options_.start_utime + std::llround(1e6 * (i * model.turn_s + model.sweep_s()));
   Rng rng = MakeRng(options_.seed, RandomStream::kRange, static_cast<uint64_t>(i));
   const auto T_world_body = [this](int64_t time) { return motion_.PoseAt(time); };
-  SimulatedScan simulated = SimulateScan(world_, people_, T_world_body, utime, options_.lidar, rng);
+  SimulatedScan simulated = SimulateScan(WorldAt(utime), people_, T_world_body, utime, options_.lidar, rng);
   return {std::move(simulated.scan), motion_.PoseAt(utime), motion_.TwistAt(utime), simulated.bound};
 }
 

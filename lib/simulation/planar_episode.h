@@ -27,6 +27,12 @@ struct PlanarEpisodeOptions {
   std::string Validate() const;
 };
 
+// What the world has become at a time: furniture was moved.
+struct WorldChange {
+  double at_s = 0.0;  // since the start; what a beam meets is decided by its scan's utime
+  PlanarWorld world;
+};
+
 struct PlanarFrame {
   PlanarScan scan;
   Pose2 T_world_body;                                    // at scan.utime
@@ -39,23 +45,28 @@ struct PlanarFrame {
 //   for (int i = 0; i < episode->num_frames(); ++i) const PlanarFrame frame = episode->Frame(i);
 class PlanarEpisode {
  public:
-  // None where the options are not valid or the world has no free space of the wanted clearance.
-  [[nodiscard]] static std::optional<PlanarEpisode> Create(PlanarWorld world, const PlanarEpisodeOptions& options);
+  // Robot and people keep clear of what stands before the change and of what stands after it. None where the options
+  // are not valid or the world has no free space of the wanted clearance.
+  [[nodiscard]] static std::optional<PlanarEpisode> Create(PlanarWorld world, const PlanarEpisodeOptions& options,
+                                                           std::optional<WorldChange> change = std::nullopt);
 
   int num_frames() const;
   // Scan i and its truth, in any order; pure, hence safe from several threads.
   [[nodiscard]] PlanarFrame Frame(int i) const;
 
-  const PlanarWorld& world() const { return world_; }
+  const PlanarWorld& world() const { return world_; }  // at the start
   const PlanarMotion& motion() const { return motion_; }
   const std::vector<OdometrySample>& odometry() const { return odometry_; }
   const std::vector<Person>& people() const { return people_; }
   const PlanarEpisodeOptions& options() const { return options_; }
 
  private:
-  PlanarEpisode(PlanarWorld world, PlanarMotion motion, const PlanarEpisodeOptions& options);
+  PlanarEpisode(PlanarWorld world, std::optional<WorldChange> change, PlanarMotion motion, std::vector<Person> people,
+                const PlanarEpisodeOptions& options);
+  const PlanarWorld& WorldAt(int64_t utime) const;
 
   PlanarWorld world_;
+  std::optional<WorldChange> change_;
   PlanarMotion motion_;
   PlanarEpisodeOptions options_;
   std::vector<OdometrySample> odometry_;

@@ -93,8 +93,9 @@ PlanarEpisode MakePlanarEpisode(config::Episode& config, const std::filesystem::
   RequireValidPart("planar.people.", options.people.Validate());
   RequireValid(options.Validate());
 
-  PlanarWorld world = MakePlanarWorld(*config.mutable_planar()->mutable_world(), folder, options.seed);
-  std::optional<PlanarEpisode> episode = PlanarEpisode::Create(std::move(world), options);
+  config::Episode::World& world = *config.mutable_planar()->mutable_world();
+  std::optional<PlanarEpisode> episode =
+      PlanarEpisode::Create(MakePlanarWorld(world, folder, options.seed), options, MakeWorldChange(world, folder));
   if (!episode) RequireValid("planar.drive.clearance_m: the world leaves the robot no room");
   if (episode->num_frames() == 0) RequireValid("duration_s: shorter than one scan");
   return *std::move(episode);

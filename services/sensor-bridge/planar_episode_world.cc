@@ -52,11 +52,13 @@ void AddSegments(const config::Episode::World& config, std::vector<Segment>& wal
   }
 }
 
-void AddBoxes(const config::Episode::World& config, std::vector<Segment>& walls) {
-  for (int i = 0; i < config.box_size(); ++i) {
-    const auto& box = config.box(i);
+using Boxes = google::protobuf::RepeatedPtrField<config::Episode::Box>;
+
+void AddBoxes(const char* name, const Boxes& boxes, std::vector<Segment>& walls) {
+  for (int i = 0; i < boxes.size(); ++i) {
+    const auto& box = boxes[i];
     for (const double number : {box.x_m(), box.y_m(), box.yaw_rad(), box.length_m(), box.width_m()}) {
-      if (!std::isfinite(number)) RequireValid(fmt::format("planar.world.box[{}]: must be finite", i));
+      if (!std::isfinite(number)) RequireValid(fmt::format("planar.world.{}[{}]: must be finite", name, i));
     }
     const auto outline = BoxOutline({box.x_m(), box.y_m()}, box.length_m(), box.width_m(), box.yaw_rad());
     walls.insert(walls.end(), outline.begin(), outline.end());
@@ -72,15 +74,27 @@ PlanarWorld AddRandomBoxes(PlanarWorld world, config::Episode::RandomBoxes& conf
   return WithRandomBoxes(std::move(world), count, min_gap_m, seed);
 }
 
-}  // namespace
-
-PlanarWorld MakePlanarWorld(config::Episode::World& config, const std::filesystem::path& folder, uint64_t seed) {
+PlanarWorld WorldWith(const char* name, const Boxes& boxes, config::Episode::World& config,
+                      const std::filesystem::path& folder) {
   const PlanarWorld base = BaseWorld(config, folder);
   std::vector<Segment> walls(base.walls().begin(), base.walls().end());
   AddSegments(config, walls);
-  AddBoxes(config, walls);
-  PlanarWorld world(std::move(walls), {base.barriers().begin(), base.barriers().end()});
-  return AddRandomBoxes(std::move(world), *config.mutable_random_boxes(), seed);
+  AddBoxes(name, boxes, walls);
+  return PlanarWorld(std::move(walls), {base.barriers().begin(), base.barriers().end()});
+}
+
+}  // namespace
+
+PlanarWorld MakePlanarWorld(config::Episode::World& config, const std::filesystem::path& folder, uint64_t seed) {
+  return AddRandomBoxes(WorldWith("box", config.box(), config, folder), *config.mutable_random_boxes(), seed);
+}
+
+std::optional<WorldChange> MakeWorldChange(config::Episode::World& config, const std::filesystem::path& folder) {
+  double at_s = 0.0;
+  ConfigBinder(config, "planar.world.")("moved_at_s", at_s);
+  if (config.moved_box_size() == 0) return std::nullopt;
+  if (config.random_boxes().count() > 0) RequireValid("planar.world.random_boxes: not together with moved_box");
+  return WorldChange{at_s, WorldWith("moved_box", config.moved_box(), config, folder)};
 }
 
 }  // namespace lcmslam

@@ -143,6 +143,19 @@ TEST(EpisodeConfig, WorldsAreAddedUp) {
   EXPECT_EQ(walls("name: 'stdr10' random_boxes { count: 2 }"), Stdr10World().walls().size() + 8);
 }
 
+TEST(EpisodeConfig, BoxesAreMoved) {
+  const auto moved_at = [](const std::string& seconds) {
+    return Make(
+        "duration_s: 2 planar { world { box { length_m: 3 width_m: 3 } moved_box { length_m: 4 width_m: 4 } "
+        "moved_at_s: " +
+        seconds + "} lidar { noise_level: NONE } }");
+  };
+  const PlanarEpisode moved = moved_at("1"), later = moved_at("3");
+  const auto reach_m = [](const PlanarEpisode& episode, int i) { return episode.Frame(i).scan.beams.at(300).range_m; };
+  EXPECT_EQ(reach_m(moved, 0), reach_m(later, 0));
+  EXPECT_GT(reach_m(moved, 19), reach_m(later, 19));
+}
+
 TEST(EpisodeConfig, MapsAreRelativeToTheEpisodesFolder) {
   const TemporaryFile file;
   OccupancyGrid grid{.width = 100, .height = 80, .cells = std::vector<int8_t>(8000, -1)};
@@ -170,6 +183,9 @@ TEST(EpisodeConfig, RefusalsNameTheField) {
       {"planar { world { name: 'room5' box {} box { yaw_rad: nan } } }", "planar.world.box[1]: "},
       {"planar { world { random_boxes { count: -1 } } }", "planar.world.random_boxes.count: "},
       {"planar { world { random_boxes { min_gap_m: nan } } }", "planar.world.random_boxes.min_gap_m: "},
+      {"planar { world { box {} moved_box { x_m: nan } } }", "planar.world.moved_box[0]: "},
+      {"planar { world { moved_at_s: nan } }", "planar.world.moved_at_s: "},
+      {"planar { world { random_boxes { count: 1 } moved_box {} } }", "planar.world.random_boxes: "},
       {"planar { lidar { model { turn_s: 0 } } }", "planar.lidar.model.turn_s: "},
       {"planar { lidar { model { max_range_m: inf } } }", "planar.lidar.model.max_range_m: "},
       {"planar { lidar { noise { sigma_m: -1 } } }", "planar.lidar.noise.sigma_m: "},

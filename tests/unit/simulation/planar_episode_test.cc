@@ -1,5 +1,6 @@
 #include "simulation/planar_episode.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,33 @@ TEST(PlanarEpisode, ScansFollowTheModelsTiming) {
   EXPECT_EQ(episode.num_frames(), 600);
   EXPECT_EQ(episode.Frame(0).scan.utime, 1'066'667);  // 240 of 360 degrees in 66.7 of 100 ms, after the start at 1 s
   EXPECT_EQ(episode.Frame(10).scan.utime, 2'066'667);
+}
+
+// The later world stands within the first, so that the drive is the same.
+TEST(PlanarEpisode, TheWorldChangesOnce) {
+  const PlanarEpisodeOptions options{.seed = 3, .duration_s = 6.0};
+  const PlanarWorld room = Room5World();
+  const WorldChange emptied{2.0, PlanarWorld({room.walls().begin(), room.walls().begin() + 4})};
+  const PlanarEpisode unchanged = Episode(options);
+  const PlanarEpisode changed = *PlanarEpisode::Create(room, options, emptied);
+  bool sees_more = false;
+  for (int i = 0; i < unchanged.num_frames(); ++i) {
+    const PlanarScan before = unchanged.Frame(i).scan, after = changed.Frame(i).scan;
+    const bool has_changed = after.utime >= options.start_utime + 2'000'000;
+    EXPECT_TRUE(has_changed || SameScan(before, after)) << i;
+    sees_more |= has_changed && !SameScan(before, after);
+  }
+  EXPECT_TRUE(sees_more);
+}
+
+TEST(PlanarEpisode, TheRobotKeepsClearOfWhatIsMovedThere) {
+  const PlanarEpisodeOptions options{.seed = 3, .duration_s = 20.0};
+  const PlanarWorld later(BoxOutline({2.5, 2.5}, 1.0, 1.0));
+  const PlanarEpisode episode = *PlanarEpisode::Create(Room5World(), options, WorldChange{10.0, later});
+  for (int i = 0; i < episode.num_frames(); ++i) {
+    const Eigen::Vector2d p = episode.Frame(i).T_world_body.translation();
+    EXPECT_GE(std::min(later.Distance(p), episode.world().Distance(p)), options.drive.clearance_m - 1e-6);
+  }
 }
 
 TEST(PlanarEpisode, RefusesBadOptionsAndWorldsWithoutRoom) {
