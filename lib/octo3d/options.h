@@ -73,7 +73,7 @@ struct Options {
   TrustOptions trust;
   bool localize_only = false;      // the map stays as it is
   int max_points = 20000;          // of a sweep; more are thinned evenly: they add time, not accuracy
-  double update_distance_m = 0.2;  // the map takes a sweep in after so much motion ...
+  double update_distance_m = 0.2;  // past its first ten sweeps the map takes one in after so much motion ...
   double update_angle_rad = 0.1;   // ... or so much rotation: a still lidar shows it nothing new
   int threads = 1;                 // 2: another one takes a sweep into the map while the next is prepared
   std::string Validate() const;    // "" or "group.field: reason"

@@ -20,6 +20,7 @@ constexpr double kMapPoseM = 1e-4, kMapPoseRad = 1e-4;  // the first pose define
 constexpr double kLongestWalkS = 10.0;                  // beyond, more silence makes nothing worse
 constexpr double kStartMotionM = 0.02;                  // of points during the first sweep
 constexpr int kStartRounds = 4;
+constexpr size_t kYoungSweeps = 10;  // a map of fewer gains by every sweep, at rest too
 
 // Pose known to within pose_m and pose_rad; of the velocity only the size is known.
 StateBelief AtRest(const Pose3& T_map_body, double pose_m, double pose_rad, const TrustOptions& trust) {
@@ -186,7 +187,7 @@ bool Pipeline::IsGood(const RegistrationResult& registration) const {
 }
 
 bool Pipeline::MovedEnough() const {
-  if (!T_map_inserted_) return true;
+  if (!T_map_inserted_ || map_.viewpoints().size() < kYoungSweeps) return true;
   const Pose3 motion = T_map_inserted_->inverse() * belief_.mean.T_map_body;
   return motion.translation.norm() >= options_.update_distance_m ||
          AngleBetween(motion.rotation, Eigen::Quaterniond::Identity()) >= options_.update_angle_rad;
