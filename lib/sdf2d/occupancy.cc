@@ -10,6 +10,7 @@ namespace {
 constexpr int8_t kOccupied = 100;
 constexpr int8_t kFreeBySurface = -50;  // in front of a surface that was seen
 constexpr int kFreePerBeam = 10;
+constexpr int64_t kMaxCells = int64_t{1} << 28;
 
 int8_t CellOf(const SdfTile& tile, int vertex, float half_cell_m) {
   const SdfTile::Vertex nearest = tile.Nearest(vertex);
@@ -34,8 +35,11 @@ OccupancyGrid ToOccupancyGrid(const SdfMap& map) {
     first = first.cwiseMin(at);
     last = last.cwiseMax(at);
   }
-  grid.width = (last.x() - first.x() + 1) * kSide;
-  grid.height = (last.y() - first.y() + 1) * kSide;
+  const int64_t columns = (int64_t{last.x()} - first.x() + 1) * kSide;
+  const int64_t rows = (int64_t{last.y()} - first.y() + 1) * kSide;
+  if (columns > kMaxCells / rows) return grid;
+  grid.width = static_cast<int>(columns);
+  grid.height = static_cast<int>(rows);
   grid.origin_m = (first.cast<double>() * kSide - Eigen::Vector2d::Constant(0.5)) * grid.cell_m;
   grid.cells.assign(static_cast<size_t>(grid.width) * static_cast<size_t>(grid.height), 0);
 

@@ -101,5 +101,17 @@ TEST(Occupancy, WallFreeAndUnknown) {
   EXPECT_EQ(ToOccupancyGrid(SdfMap(0.05)).width, 0);
 }
 
+// A set pose or odometry may put the robot anywhere: a map is kept of it, but no grid that spans it all.
+TEST(Occupancy, NoGridOfTilesThatLieTooFarApart) {
+  for (const int far : {1 << 20, 1 << 30}) {
+    SdfMap map(0.05);
+    map.Touch(-far, -far);
+    map.Touch(far, far);
+    const OccupancyGrid grid = ToOccupancyGrid(map);
+    EXPECT_EQ(grid.width, 0);
+    EXPECT_TRUE(grid.cells.empty());
+  }
+}
+
 }  // namespace
 }  // namespace lcmslam::sdf2d
