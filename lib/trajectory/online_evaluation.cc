@@ -163,8 +163,11 @@ OnlineEvaluation::Result OnlineEvaluation::ErrorSoFar() const {
   result.error.translation_m.max = max_m;
   result.utime = pairs_.latest.utime;
   result.latest_error_m = PositionError(pairs_.latest, result.alignment);
-  const std::string unobservable = DescribeUnobservable(result.alignment);
-  if (!unobservable.empty()) result.text += (result.text.empty() ? "" : "; ") + unobservable;
+  const int64_t stride = pairs_.thinned.stride();
+  for (const std::string& part :
+       {DescribeUnobservable(result.alignment), stride == 1 ? "" : fmt::format("mean over one pose in {}", stride)}) {
+    if (!part.empty()) result.text += (result.text.empty() ? "" : "; ") + part;
+  }
   return result;
 }
 
@@ -185,9 +188,6 @@ std::string OnlineEvaluation::Describe() const {
   if (before_ > 0) parts.push_back(Poses(before_) + " before the reference began");
   if (in_gap_ > 0) parts.push_back(Poses(in_gap_) + " in gaps of the reference");
   if (out_of_order_ > 0) parts.push_back(Poses(out_of_order_) + " out of order left out");
-  if (const int64_t stride = pairs_.thinned.stride(); stride > 1) {
-    parts.push_back(fmt::format("mean over one pose in {}", stride));
-  }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 

@@ -40,6 +40,7 @@ class OnlineEvaluation {
   // Of the current segment.
   Result ErrorSoFar() const;
   AlignmentKind alignment_kind() const { return ChooseAlignment(options_, is_planar_); }
+  // What went wrong so far.
   std::string Describe() const;
 
   int segment() const { return segment_; }  // from 1

@@ -209,6 +209,7 @@ TEST(OnlineEvaluation, LongRunsAreThinnedAndTheLargestErrorIsKept) {
   EXPECT_LE(result.error.translation_m.count, 2048);
   EXPECT_GE(result.error.translation_m.count, 1024);
   EXPECT_THAT(result.text, HasSubstr("mean over one pose in 16"));
+  EXPECT_EQ(online.Describe(), "") << "nothing went wrong";
   EXPECT_EQ(static_cast<size_t>(result.matched), batch.association.pairs.size());
   EXPECT_NEAR(result.error.translation_m.mean / batch.absolute.translation_m.mean, 1.0, 0.05);
   EXPECT_NEAR(result.error.translation_m.max, batch.absolute.translation_m.max, 1e-9);
