@@ -60,6 +60,21 @@ std::vector<std::string> NotesOf(const result::Evaluation& m) {
   return notes;
 }
 
+// How the poses of a run were paired and the frames made one.
+std::string AlignmentOf(const result::Evaluation& m) {
+  static const std::map<std::string, std::string> kMeanings = {
+      {"none", "none (the frames are taken to be the same)"},
+      {"first", "first (the first poses are made equal)"},
+      {"yaw", "yaw (least squares over x, y, z and yaw)"},
+      {"se2", "se2 (least squares over x, y and yaw; z, roll and pitch are left out)"},
+      {"se3", "se3 (least squares over x, y, z and rotation)"}};
+  const auto meaning = kMeanings.find(m.alignment().kind());
+  return fmt::format("{}{}, across gaps of up to {:g} s, time offset {:g} s",
+                     meaning == kMeanings.end() ? m.alignment().kind() : meaning->second,
+                     m.has_calibration() ? " with calibration of time offset and marker" : "",
+                     m.association().max_gap_s(), m.association().time_offset_s());
+}
+
 // Alignments, gaps and commands that occur in the study.
 std::string MethodHtml(const Study& study, const PageOptions& options) {
   std::set<std::string> alignments, commands, notes;
@@ -67,30 +82,28 @@ std::string MethodHtml(const Study& study, const PageOptions& options) {
     for (const Episode& episode : group.episodes) {
       for (const auto& [system, run] : episode.runs) {
         const result::Evaluation& m = run.metrics;
-        if (m.has_alignment()) {
-          alignments.insert(
-              fmt::format("{} across gaps of up to {:g} s", m.alignment().kind(), m.association().max_gap_s()));
-        }
+        if (m.has_alignment()) alignments.insert(AlignmentOf(m));
         for (const std::string& note : NotesOf(m)) notes.insert(fmt::format("{}, {}: {}", episode.name, system, note));
-        if (m.has_command()) commands.insert(m.command());
+        for (const std::string& command : {m.command(), run.map_quality.command()}) {
+          if (!command.empty()) commands.insert(command);
+        }
       }
     }
   }
   std::string html =
       "<h2>How these numbers came about</h2>\n<p>The reference is interpolated (linear, SLERP) at the stamps of "
       "the estimate, never extrapolated; coverage is the share of the estimate's poses that found a partner. The "
-      "frames are aligned by least squares without scale. Alignment and largest gap: ";
-  for (const std::string& alignment : alignments) html += EscapeHtml(alignment) + "; ";
+      "frames are made one without scale. Alignment: ";
+  html += EscapeHtml(fmt::format("{}", fmt::join(alignments, "; or "))) + ". ";
   html += fmt::format(
-      "se2 leaves z, roll and pitch out. An episode counts as failed, by a rule that stood before the runs were looked "
-      "at, when its "
-      "mean error is above {:g} m, its coverage below {:g} %, or there is no result; failed episodes are never dropped "
-      "and rank "
-      "worst. p95 is linear between order statistics.</p>\n",
+      "An episode counts as failed, by a rule that stood before the runs were looked at, when its mean error is above "
+      "{:g} m, its coverage below {:g} %, or there is no result; failed episodes are never dropped and rank worst. p95 "
+      "is linear between order statistics.</p>\n",
       study.failure_rule.max_mean_m, 100.0 * study.failure_rule.min_coverage);
   for (const std::string& note : notes) html += fmt::format("<p class=\"soft\">{}</p>\n", EscapeHtml(note));
   html += fmt::format("<p>This page: <code>{}</code></p>\n", EscapeHtml(options.command));
-  html += fmt::format("<details><summary>Commands of {} evaluations</summary><pre>", commands.size());
+  html +=
+      fmt::format("<details><summary>Commands of the evaluations, {} different ones</summary><pre>", commands.size());
   for (const std::string& command : commands) html += EscapeHtml(command) + "\n";
   return html + "</pre></details>\n";
 }

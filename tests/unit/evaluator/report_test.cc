@@ -253,7 +253,8 @@ TEST_F(Report, PageHoldsEverything) {
   EXPECT_THAT(page, HasSubstr("<p>1 &lt; 2</p>"));
   EXPECT_THAT(page, HasSubstr("smaller in 8 of 8 episodes"));
   EXPECT_THAT(page, HasSubstr("8 of 8"));
-  EXPECT_THAT(page, HasSubstr("none across gaps of up to 0.3 s"));
+  EXPECT_THAT(page,
+              HasSubstr("none (the frames are taken to be the same), across gaps of up to 0.3 s, time offset 0 s"));
   EXPECT_THAT(page, HasSubstr("evaluator &lt;e/3&gt;"));
   EXPECT_THAT(page, HasSubstr("cell_m: 0.05"));
   EXPECT_THAT(page, HasSubstr(Sha256(ReadFile(folder_ / "e/3/sdf2d-slam_metrics.json"))));
