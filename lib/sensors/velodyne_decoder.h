@@ -19,7 +19,7 @@ class VelodyneDecoder {
   [[nodiscard]] std::vector<Sweep> Add(std::span<const uint8_t> payload, std::optional<int64_t> received_utime);
 
   int64_t packet_utime() const { return assembler_.packet_utime(); }  // of the last one decoded
-  int64_t packets() const { return packets_; }  // decoded so far
+  int64_t packets() const { return packets_; }                        // decoded so far
   int64_t refused() const { return refused_; }
 
  private:

@@ -1,5 +1,5 @@
-// command_log OUT.lcm SERVICE save|load|reset|pose [PATH | X Y YAW]: an LCM log of one SLAM_COMMAND to that service, for
-// lcm-logplayer to send.
+// command_log OUT.lcm SERVICE save|load|reset|pose [PATH | X Y YAW]: an LCM log of one SLAM_COMMAND to that service,
+// for lcm-logplayer to send.
 #include <cmath>
 #include <cstdlib>
 #include <map>
