@@ -10,7 +10,7 @@ namespace {
 
 // One value an episode.
 struct StageSamples {
-  std::vector<double> median_ms, p95_ms, iterations, iterations_per_s;
+  std::vector<double> median_ms, p95_ms, per_s, iterations, iterations_per_s;
 };
 
 // What systems call the stage that iterates.
@@ -19,6 +19,7 @@ bool IsRegistration(const std::string& stage) { return stage == "register" || st
 void AddSample(const result::Summary& ms, StageSamples& samples) {
   samples.median_ms.push_back(ms.median());
   samples.p95_ms.push_back(ms.p95());
+  if (ms.mean() > 0.0) samples.per_s.push_back(1e3 / ms.mean());
 }
 
 void AddIterations(const result::Timing& timing, const result::Summary& ms, StageSamples& samples) {
@@ -30,17 +31,17 @@ void AddIterations(const result::Timing& timing, const result::Summary& ms, Stag
 std::string Median(std::vector<double> values) { return values.empty() ? "" : Number(Percentile(values, 0.5)); }
 
 void AddRow(const std::string& system, const std::string& stage, const StageSamples& samples, Table& table) {
-  table.rows.push_back({system, stage, Median(samples.median_ms), Median(samples.p95_ms), Median(samples.iterations),
-                        Median(samples.iterations_per_s)});
+  table.rows.push_back({system, stage, Median(samples.median_ms), Median(samples.p95_ms), Median(samples.per_s),
+                        Median(samples.iterations), Median(samples.iterations_per_s)});
 }
 
 }  // namespace
 
 Table SpeedTable(const Study& study, const Group& group) {
   Table table{"speed",
-              "Time of a scan and of its stages, wall clock; iterations of a registration, and how many it does in a "
-              "second of its own time. Medians over episodes.",
-              {"system", "stage", "median [ms]", "p95 [ms]", "iterations", "iterations/s"},
+              "Time of a scan and of its stages, wall clock, and how many fit into a second of it; iterations of a "
+              "registration, and how many it does in a second of its own time. Medians over episodes.",
+              {"system", "stage", "median [ms]", "p95 [ms]", "1/s", "iterations", "iterations/s"},
               {},
               2};
   for (const std::string& system : study.systems) {
