@@ -34,7 +34,7 @@ struct RegistrationOptions {
   int max_iterations = 12;
   double kernel = 1.0;             // residuals beyond this many standard deviations lose their weight (Geman-McClure)
   double model_error_m = 0.01;     // per patch, uncorrelated between patches: what the map never models
-  double step_sigmas = 0.5;        // converged when a step is shorter, in standard deviations of the motion
+  double step_sigmas = 0.25;       // converged when a step is shorter, in standard deviations of the motion
   double acceleration_mps2 = 0.5;  // expected changes of velocity: the motion prior
   double angular_acceleration_radps2 = 0.5;
   double min_direction_share = 1e-3;  // directions with less of the information are unobservable
