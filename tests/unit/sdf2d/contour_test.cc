@@ -45,10 +45,16 @@ TEST(Contour, StraightWallIsExact) {
   for (const Eigen::Vector2d& p : points) EXPECT_NEAR(p.dot(normal), 0.33, 1e-6);
 }
 
-// Two corners of a box meet in one cell: the lines keep to their own corner.
+// Two corners meet in one cell: the lines keep to their own corner. Chords of its hyperbolas run where the distance is
+// negative; lines that joined the corners would run where it is positive, by up to 2.4 mm.
 TEST(Contour, SaddleKeepsCornersApart) {
   const auto saddle = [](const Eigen::Vector2d& p) { return (p.x() - 0.023) * (p.y() - 0.019) / 0.05 + 0.0005; };
-  for (const Eigen::Vector2d& p : Contour(MapOf(saddle), 0.01)) EXPECT_LT(std::abs(saddle(p)), 0.003) << p.transpose();
+  const auto points = Contour(MapOf(saddle), 0.01);
+  ASSERT_GT(points.size(), 100u);
+  for (const Eigen::Vector2d& p : points) {
+    EXPECT_LT(saddle(p), 1e-6) << p.transpose();
+    EXPECT_GT(saddle(p), -0.004) << p.transpose();
+  }
 }
 
 TEST(Contour, NothingKnownNoSurface) {
