@@ -87,11 +87,10 @@ public final class SpyDriver {
   }
 
   private void open(JTable table, String channel) throws Exception {
-    await(channel, () -> rowOf(table, channel));
     view = null;
     // A channel that comes up meanwhile moves the rows below it: then another one is hit.
     for (long end = System.currentTimeMillis() + PATIENCE_MS; view == null && System.currentTimeMillis() < end;) {
-      doubleClick(table, rowOf(table, channel));
+      doubleClick(table, await(channel, () -> rowOf(table, channel)));
       view = within(SETTLE_MS, () -> viewOf(channel));
     }
     if (view == null) throw new IllegalStateException("no view of " + channel);

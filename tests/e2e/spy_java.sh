@@ -49,6 +49,7 @@ play_run() { lcm-logplayer --speed=5 --lcm-url="$lcm_url" run.lcm >player.log 2>
 
 finish_spy() {
   finish "$1"
+  cat "$1.log"
   [[ -s $1/map.png && -s $1/health.png && -e $1/done ]]
 }
 

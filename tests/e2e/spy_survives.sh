@@ -9,7 +9,7 @@ need_desktop
 
 main() {
   record planar sdf2d-slam room5_low 20
-  record spatial octo3d-slam hall10_low 3
+  record spatial octo3d-slam hall10_low 8
   "$bin/mutated_log" mutated.lcm 1000 "${LCMSLAM_SEED:-1}"
   claim_bus
   open_desktop
