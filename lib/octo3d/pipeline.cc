@@ -189,8 +189,7 @@ bool Pipeline::IsGood(const RegistrationResult& registration) const {
 bool Pipeline::MovedEnough() const {
   if (!T_map_inserted_ || map_.viewpoints().size() < kYoungSweeps) return true;
   const Pose3 motion = T_map_inserted_->inverse() * belief_.mean.T_map_body;
-  return motion.translation.norm() >= options_.update_distance_m ||
-         AngleBetween(motion.rotation, Eigen::Quaterniond::Identity()) >= options_.update_angle_rad;
+  return Reaches(motion, options_.update_distance_m, options_.update_angle_rad);
 }
 
 // False when there was no point to insert.
