@@ -1,5 +1,5 @@
 # Called by replay/picture, which sets: map, estimate, picture; width, height, header, cell_m, x0_m, y0_m of the map's PGM;
-# and where there is ground truth: truth, caption, and T_world_map as tx, ty, yaw.
+# and where there is ground truth: truth, caption, and T_map_world as t1, t2, t3 and r11 ... r33.
 has_truth = exists('truth')
 set terminal pngcairo size 900, 900 * height / width + 60 font 'sans,11' linewidth 1
 set output picture
@@ -13,8 +13,8 @@ set xrange [x0_m : x0_m + width * cell_m]
 set yrange [y0_m : y0_m + height * cell_m]
 set tics out nomirror
 set key horizontal outside top center
-in_map_x(x, y) = cos(yaw) * (x - tx) + sin(yaw) * (y - ty)
-in_map_y(x, y) = -sin(yaw) * (x - tx) + cos(yaw) * (y - ty)
+in_map_x(x, y) = t1 + r11 * x + r12 * y
+in_map_y(x, y) = t2 + r21 * x + r22 * y
 set style line 1 linecolor '#e69f00' linewidth 5
 set style line 2 linecolor '#0072b2' linewidth 1.6
 if (has_truth) {

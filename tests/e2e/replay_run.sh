@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# replay/run: says in one line what is wrong, ends what it started however it ends, keeps earlier results.
+# replay/run: says in one line what is wrong, ends what it started however it ends, keeps earlier results, draws maps.
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
+. "$root/tests/support/pictures.sh"
 
 main() {
   "$bin/sensor-bridge" simulate --episode "$root/replay/episodes/room5_low.pbtxt" --set duration_s=5 --quiet --log-out episode.lcm
   refuses
   cleans_up
   keeps_results
+  takes_sweeps
   finish_test
 }
 
@@ -49,6 +51,19 @@ keeps_results() {
   "$root/replay/run" episode.lcm --out kept
   check "two folders and the link" test "$(find kept -mindepth 1 -maxdepth 1 | wc -l)" = 3
   check "latest is the newer one" test "$(readlink kept/latest)" = "$(find kept -mindepth 1 -maxdepth 1 -type d -printf '%f\n' | sort -V | tail -n 1)"
+}
+
+# Walls, and the estimate upon the truth, in plan and side view: truth comes in another frame.
+takes_sweeps() {
+  "$bin/sensor-bridge" simulate --episode "$root/replay/episodes/hall10_low.pbtxt" --set duration_s=5 --quiet --log-out hall.lcm
+  check "a log of sweeps runs" "$root/replay/run" hall.lcm --out hall
+  check "a cloud's map too" "$root/replay/run" hall.lcm --systems cloud3d-slam --out cloud
+  local picture
+  for picture in hall/latest/octo3d-slam_picture.png cloud/latest/cloud3d-slam_picture.png; do
+    check "$picture: walls" at_least "$(pixels count "$picture" 26323A)" 3000
+    check "$picture: a trajectory" at_least "$(pixels count "$picture" 0072B2)" 150
+    check "$picture: truth below it" at_least "$(pixels near "$picture" 0072B2 E69F00 4)" 75 # the key has no truth below it
+  done
 }
 
 main "$@"
