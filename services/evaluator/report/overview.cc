@@ -13,10 +13,11 @@ Table OverviewTable(const Study& study) {
   table.caption = fmt::format(
       "Mean position error of each episode, summed up over episodes; failed: mean error above {:g} m or coverage below "
       "{:g} %. Mean and SD (n - 1) over completed episodes; in the median failed ones rank worst. Ratios: over {}. "
-      "Mean / bound: mean error over the mean of the scans' Cramer-Rao bounds, median over episodes.",
+      "Mean / bound: mean error over the mean of the scans' Cramer-Rao bounds, median over episodes. Times: of a scan, "
+      "wall clock, median over episodes.",
       study.failure_rule.max_mean_m, 100.0 * study.failure_rule.min_coverage, study.systems.front());
-  table.header = {"episodes",     "system",   "completed",    "mean [mm]",   "median [mm]", "SD [mm]", "mean ratio",
-                  "median ratio", "SD ratio", "mean / bound", "median [ms]", "p95 [ms]",    "p99 [ms]"};
+  table.header = {"episodes",     "system",   "completed",    "mean [mm]", "median [mm]", "SD [mm]",  "mean ratio",
+                  "median ratio", "SD ratio", "mean / bound", "mean [ms]", "median [ms]", "p95 [ms]", "p99 [ms]"};
   table.text_columns = 2;
   for (const Group& group : study.groups) {
     const EpisodeSummary first = SummarizeEpisodes(TranslationErrors(group, study.systems.front()));
@@ -26,6 +27,7 @@ Table OverviewTable(const Study& study) {
                             Millimetres(s.median), Millimetres(s.sd), Number(s.mean / first.mean),
                             Number(s.median / first.median), Number(s.sd / first.sd),
                             Number(MedianOverBound(group, system, &result::Summary::mean, &Bound::mean_m)),
+                            Number(MedianStepMs(group, system, &result::Summary::mean)),
                             Number(MedianStepMs(group, system, &result::Summary::median)),
                             Number(MedianStepMs(group, system, &result::Summary::p95)),
                             Number(MedianStepMs(group, system, &result::Summary::p99))});

@@ -178,9 +178,9 @@ TEST_F(Report, ErrorsAreSetAgainstTheBound) {
   const Table overview = OverviewTable(study);
   ASSERT_EQ(overview.rows.size(), 4u);
   EXPECT_THAT(overview.rows[0],
-              ElementsAre("low", "a", "3/3", "7.00", "7.00", "0.00", "1.00", "1.00", "-", "2.00", "-", "-", "-"));
+              ElementsAre("low", "a", "3/3", "7.00", "7.00", "0.00", "1.00", "1.00", "-", "2.00", "-", "-", "-", "-"));
   EXPECT_THAT(overview.rows[1],
-              ElementsAre("low", "b", "3/3", "14.0", "14.0", "0.00", "2.00", "2.00", "-", "4.00", "-", "-", "-"));
+              ElementsAre("low", "b", "3/3", "14.0", "14.0", "0.00", "2.00", "2.00", "-", "4.00", "-", "-", "-", "-"));
   EXPECT_EQ(overview.rows[2][9], "-") << "no noise, no bound";
   const Table systems = SystemsTable(study, study.groups[0]);
   EXPECT_EQ(systems.header[10], "RMSE / bound");
