@@ -51,6 +51,7 @@ class PoseTable {
   PoseTable(const TimeSlots& slots, const std::function<Pose3(double dt_us)>& T_map_lidar);
 
   const Entry& operator[](int slot) const { return entries_[slot]; }
+  size_t size() const { return entries_.size(); }
 
  private:
   static constexpr size_t kKnotSlots = 16;

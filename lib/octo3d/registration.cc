@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <Eigen/Cholesky>
 
 #include "lidar/pose_table.h"
+#include "octo3d/plane_constraints.h"
 #include "octo3d/sweep_information.h"
 
 namespace lcmslam::octo3d {
@@ -15,15 +15,6 @@ namespace {
 
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 using Vector24 = Eigen::Matrix<double, 24, 1>;
-
-// What a patch is measured against.
-struct Association {
-  Eigen::Vector3d asked = Eigen::Vector3d::Constant(1e9);  // where the map was asked
-  bool matched = false;
-  Eigen::Vector3d normal, mean;
-  double sigma = 0.0;        // m, of a single point over the plane
-  double information = 0.0;  // 1/m^2, of the patch's height over the plane
-};
 
 // The information about `to` alone: Schur complement.
 Matrix12 MarginaliseFrom(const Matrix24& H) {
@@ -37,21 +28,19 @@ class Registrar {
  public:
   Registrar(const SurfelMap& map, const TimedPatches& sweep, const StateBelief& from, const RelativeMotion& hint,
             const MotionSegment& guess, const RegistrationOptions& options)
-      : map_(map),
-        sweep_(sweep),
+      : sweep_(sweep),
         belief_(from),
         hint_(hint),
         guess_(guess),
         options_(options),
         slots_(sweep.first_dt_us),
-        associations_(sweep.patches.size()) {}
+        constraints_(map, sweep.patches, options, guess.to().T_map_body.translation) {}
 
   RegistrationResult Run() {
     Predict();
     for (result_.iterations = 1; result_.iterations <= options_.max_iterations; ++result_.iterations) {
       const double sweep_us = 1e6 * sweep_.duration_s;
       const PoseTable poses(slots_, [&](double dt_us) { return result_.motion.At(1.0 + dt_us / sweep_us); });
-      Associate(poses);
       Linearise(poses);
       if (result_.matched < kMinMatches) break;
       const bool small = Step();
@@ -70,21 +59,14 @@ class Registrar {
 
  private:
   void Predict();
-  void Associate(const PoseTable& poses);
-  Association Associate(const Patch& patch, const PoseTable& poses, const PlaneMatch& plane) const;
   void Linearise(const PoseTable& poses);
-  bool LiesFlat(const Patch& patch, const Eigen::Vector3d& normal) const;
   void AddPriors(Matrix24& H, Vector24& b) const;
   bool Step();
   void Summarise();
 
   static constexpr int kMinMatches = 12;  // twice the unknowns of a pose
-  static constexpr double kInlier = 3.0;  // standard deviations
   static constexpr double kNarrowM = 0.02;
-  static constexpr double kMaxThickness = 1.1;  // of a patch across the plane it is matched to, in range_noise_m
-  static constexpr double kReuseM = 0.01;       // a patch that moved less keeps its plane
 
-  const SurfelMap& map_;
   const TimedPatches& sweep_;
   const StateBelief& belief_;
   const RelativeMotion& hint_;
@@ -92,10 +74,7 @@ class Registrar {
   const RegistrationOptions& options_;
 
   const TimeSlots slots_;
-  std::vector<Association> associations_;
-  std::vector<uint32_t> moved_;  // patches that are to be associated anew, their places and planes
-  std::vector<Eigen::Vector3d> asked_;
-  std::vector<PlaneMatch> planes_;
+  PlaneConstraints constraints_;
   SweepInformation measured_;
   Matrix24 H_ = Matrix24::Zero();
   double kernel_floor_m_ = 0.0;
@@ -116,71 +95,13 @@ void Registrar::Predict() {
   result_.motion = guess_;
 }
 
-void Registrar::Associate(const PoseTable& poses) {
-  moved_.clear();
-  asked_.clear();
-  for (uint32_t i = 0; i < associations_.size(); ++i) {
-    const Eigen::Vector3d p = poses[sweep_.patches[i].slot] * sweep_.patches[i].mean;
-    if ((p - associations_[i].asked).squaredNorm() <= kReuseM * kReuseM) continue;
-    moved_.push_back(i);
-    asked_.push_back(p);
-  }
-  planes_.resize(asked_.size());
-  map_.Find(asked_, planes_);
-  for (size_t k = 0; k < moved_.size(); ++k) {
-    associations_[moved_[k]] = Associate(sweep_.patches[moved_[k]], poses, planes_[k]);
-    associations_[moved_[k]].asked = asked_[k];
-  }
-}
-
-Association Registrar::Associate(const Patch& patch, const PoseTable& poses, const PlaneMatch& plane) const {
-  Association association;
-  association.matched = plane.found && LiesFlat(patch, poses[patch.slot].R_map_lidar.transpose() * plane.normal);
-  association.normal = plane.normal;
-  association.mean = plane.mean;
-  const double range_var = map_.options().range_noise_m * map_.options().range_noise_m;
-  const double plane_var = plane.variance + options_.model_error_m * options_.model_error_m;
-  association.sigma = std::sqrt(range_var + plane_var);
-  association.information = 1.0 / (range_var / patch.count + plane_var);
-  return association;
-}
-
 void Registrar::Linearise(const PoseTable& poses) {
   measured_.Clear();
-  int matched = 0, inliers = 0;
-  double squares = 0.0, normalised = 0.0;
-  for (size_t i = 0; i < associations_.size(); ++i) {
-    const Association& association = associations_[i];
-    if (!association.matched) continue;
-    const Patch& patch = sweep_.patches[i];
-    const Eigen::Vector3d lever = poses[patch.slot].R_map_lidar * patch.mean;
-    const double residual = association.normal.dot(lever + poses[patch.slot].t_map_lidar - association.mean);
-    // A patch at the border of its surface may hold one side of the noise only: judge it by the noise of single points.
-    const double sigma = association.sigma;
-    const double kernel = options_.kernel * sigma + kernel_floor_m_;
-    const double ratio = kernel * kernel / (kernel * kernel + residual * residual);
-    Vector6 J;
-    J << association.normal, lever.cross(association.normal);
-    measured_.Add(patch.slot, J, residual, ratio * ratio * association.information);
-    ++matched;
-    if (std::abs(residual) < kInlier * sigma + kernel_floor_m_) {
-      ++inliers;
-      squares += residual * residual;
-      normalised += residual * residual / (sigma * sigma);
-    }
-  }
-  result_.matched = matched;
-  result_.inlier_ratio = matched > 0 ? static_cast<double>(inliers) / matched : 0.0;
-  result_.residual_m = inliers > 0 ? std::sqrt(squares / inliers) : 0.0;
-  result_.normalised_residual = inliers > 0 ? std::sqrt(normalised / inliers) : 0.0;
-}
-
-// Whether the patch extends along the plane of this normal (lidar frame) and not across it, as a piece of floor found
-// next to a wall does.
-bool Registrar::LiesFlat(const Patch& patch, const Eigen::Vector3d& normal) const {
-  const Eigen::Vector3f n = normal.cast<float>();
-  const double limit = kMaxThickness * kMaxThickness * map_.options().range_noise_m * map_.options().range_noise_m;
-  return n.dot(patch.covariance * n) <= limit * (1.0 + 2.0 * std::sqrt(2.0 / patch.count));
+  const ConstraintFit fit = constraints_.AddTo(measured_, poses, kernel_floor_m_);
+  result_.matched = fit.matched;
+  result_.inlier_ratio = fit.matched > 0 ? static_cast<double>(fit.inliers) / fit.matched : 0.0;
+  result_.residual_m = fit.inliers > 0 ? std::sqrt(fit.squares / fit.inliers) : 0.0;
+  result_.normalised_residual = fit.inliers > 0 ? std::sqrt(fit.normalised / fit.inliers) : 0.0;
 }
 
 void Registrar::AddPriors(Matrix24& H, Vector24& b) const {

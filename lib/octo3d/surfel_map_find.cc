@@ -66,8 +66,13 @@ void SurfelMap::Impl::FindBatch(std::span<const Eigen::Vector3d> points, std::sp
   size_t size = 0;
   for (size_t i = 0; i < points.size(); ++i) {
     planes[i] = {};
-    Query query{.index = i, .p = points[i]};
-    if (ToKey(query.p, query.key)) queries[size++] = query;
+    Query& query = queries[size];
+    if (!ToKey(points[i], query.key)) continue;
+    query.index = i;
+    query.p = points[i];
+    query.best = nullptr;
+    query.best_score = std::numeric_limits<double>::infinity();
+    ++size;
   }
   queries = queries.first(size);
   FindOnPaths(queries);

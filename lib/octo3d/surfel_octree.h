@@ -14,14 +14,15 @@ namespace lcmslam::octo3d {
 
 // The plane last fitted to a cell. Map frame, metres.
 struct CellPlane {
+  // What Find() reads comes first, to share a cache line.
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  float height_var = 0.0F;  // of the plane at its mean; at distance d: height_var (1 + d^2 per_extent)
+  float per_extent = 0.0F;  // 1 / the smaller variance along the plane
+  bool planar = false;
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float thickness_var = 0.0F;  // variance across the plane
-  float height_var = 0.0F;     // of the plane at its mean; at distance d: height_var (1 + d^2 per_extent)
-  float per_extent = 0.0F;     // 1 / the smaller variance along the plane
   float count = 0.0F;          // points at the last fit; 0: never fitted
   uint32_t revision = 0;       // of the map at the last fit
-  bool planar = false;
 
   bool operator==(const CellPlane&) const = default;
 };
