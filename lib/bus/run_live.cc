@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "bus/clock.h"
 #include "bus/live_bus.h"
+#include "bus/live_receiver.h"
 #include "bus/service.h"
 #include "bus/signals.h"
 #include "geometry/utime.h"
@@ -42,7 +44,6 @@ ExitCode RunLive(ServiceContext& context, const ServiceFactory& make_service) {
   while (!receiver.drained()) {
     if (StopRequested()) receiver.Drain();
     if (const auto arrival = receiver.Pop(milliseconds(50))) {
-      // LCM stamps a message with the kernel's time of its arrival, before any queue of ours.
       const double waited_ms = static_cast<double>(UtimeDifference(WallClockUtime(), arrival->utime)) / 1e3;
       context.Dispatch(*arrival, std::max(0.0, waited_ms));
     }
@@ -52,7 +53,7 @@ ExitCode RunLive(ServiceContext& context, const ServiceFactory& make_service) {
   service->Finish();
   context.Tick(WallClockUtime());
   if (receiver.failed())
-    throw CommandError(ExitCode::kRuntime, fmt::format("LCM URL '{}': the connection broke", bus.url()));
+    throw CommandError(ExitCode::kRuntime, fmt::format("LCM URL '{}': the connection broke", bus.url().text));
   return ExitCode::kOk;
 }
 

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <lcmslam/service_status_t.hpp>
 
+#include "bus/clock.h"
 #include "bus/signals.h"
 #include "geometry/utime.h"
 

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bus/live_bus.h"
+#include "bus/clock.h"
 #include "bus/signals.h"
 #include "sensor-bridge/bridge_output.h"
 #include "sensor-bridge/byte_link.h"

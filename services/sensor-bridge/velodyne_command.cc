@@ -5,14 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bus/clock.h"
 #include "bus/health.h"
-#include "bus/live_bus.h"
 #include "bus/signals.h"
+#include "bus/udp_receiver.h"
 #include "geometry/utime.h"
 #include "sensor-bridge/bridge_output.h"
 #include "sensor-bridge/lidar_channels.h"
 #include "sensor-bridge/sensor_publisher.h"
-#include "sensor-bridge/udp_receiver.h"
 #include "sensor-bridge/velodyne_bridge.h"
 #include "sensors/velodyne_packet.h"
 
@@ -20,6 +20,7 @@ namespace lcmslam {
 namespace {
 
 constexpr std::chrono::milliseconds kLookForSignals(100);
+constexpr int kBufferBytes = 4 << 20;
 
 struct VelodyneOptions {
   uint16_t port = 2368;
@@ -40,7 +41,7 @@ void Take(const ReceivedDatagram& packet, uint16_t port, VelodyneBridge& bridge,
 
 ExitCode HearVelodyne(const VelodyneOptions& options) {
   CatchStopSignals();
-  UdpReceiver receiver(options.port);
+  UdpReceiver receiver({.number = options.port, .buffer_bytes = kBufferBytes});
   BridgeOutput output(options.output);
   SensorPublisher publisher(output, options.output.quiet);
   VelodyneBridge bridge(publisher, options.keep_packets);

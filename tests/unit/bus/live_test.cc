@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "bus/clock.h"
 #include "bus/errors.h"
 #include "bus/live_bus.h"
+#include "bus/live_receiver.h"
 
 namespace lcmslam {
 namespace {
@@ -55,6 +57,31 @@ TEST_F(Live, HearsTheChannelsAskedForAndNoOther) {
     heard.push_back(arrival->channel);
   }
   EXPECT_THAT(heard, testing::ElementsAre("LIDAR_2D", "LIDAR_2D_EXTRINSICS", "COUNT"));
+}
+
+// liblcm sends anything larger than a datagram in fragments.
+TEST_F(Live, HearsLargeMessages) {
+  LiveReceiver receiver(*receiving_, "LARGE", 1000);
+  for (const size_t size : {1'000U, 65'000U, 66'000U, 100'000U}) {
+    std::vector<uint8_t> data(size);
+    for (size_t i = 0; i < size; ++i) data[i] = static_cast<uint8_t>(i * i);
+    sender_->Publish("LARGE", data);
+    const auto arrival = receiver.Pop(milliseconds(2000));
+    ASSERT_TRUE(arrival) << size;
+    EXPECT_EQ(arrival->data, data) << size;
+  }
+}
+
+TEST_F(Live, KnowsWhenAMessageArrivedThoughItWasReadLater) {
+  LiveReceiver receiver(*receiving_, "COUNT", 1000);
+  const int64_t before_utime = WallClockUtime();
+  Send(1);
+  const int64_t after_utime = WallClockUtime();
+  std::this_thread::sleep_for(milliseconds(50));
+  const auto arrival = receiver.Pop(milliseconds(2000));
+  ASSERT_TRUE(arrival);
+  EXPECT_GE(arrival->utime, before_utime);
+  EXPECT_LE(arrival->utime, after_utime);
 }
 
 TEST_F(Live, CountsWhatAFullQueueDrops) {

@@ -1,4 +1,4 @@
-#include "sensor-bridge/udp_receiver.h"
+#include "bus/udp_receiver.h"
 
 #include <string>
 
@@ -26,7 +26,7 @@ void SendTo(uint16_t port, const std::string& payload) {
 }
 
 TEST(UdpReceiver, HearsDatagramByDatagram) {
-  UdpReceiver receiver(0);
+  UdpReceiver receiver({});
   ASSERT_NE(receiver.port(), 0);
   EXPECT_FALSE(receiver.Receive(std::chrono::milliseconds(1)));
   for (const std::string payload : {"first", "", "third, longer"}) {
@@ -39,8 +39,8 @@ TEST(UdpReceiver, HearsDatagramByDatagram) {
 }
 
 TEST(UdpReceiver, ATakenPortIsAnError) {
-  const UdpReceiver first(0);
-  EXPECT_THROW(UdpReceiver second(first.port()), CommandError);
+  const UdpReceiver first({});
+  EXPECT_THROW(UdpReceiver second({.number = first.port()}), CommandError);
 }
 
 }  // namespace
