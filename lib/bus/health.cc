@@ -77,7 +77,17 @@ void Health::NoteInput(std::string_view channel, int64_t utime) {
   auto gap = gaps_.find(channel);
   if (gap == gaps_.end()) gap = gaps_.emplace(std::string(channel), GapCounter()).first;
   CountMissing(channel, gap->second.Missing(utime));
+  NoteStamp(utime);
+}
+
+void Health::NoteStamp(int64_t utime) {
   input_utime_ = utime;
+  pace_.Note(utime, arrival_utime_, now_utime_);
+}
+
+void Health::BeginEvent(int64_t arrival_utime, int64_t now_utime) {
+  arrival_utime_ = arrival_utime;
+  now_utime_ = now_utime;
 }
 
 void Health::NoteLatency(double latency_ms, double busy_ms) {
@@ -85,11 +95,10 @@ void Health::NoteLatency(double latency_ms, double busy_ms) {
   busy_ms_ += busy_ms;
 }
 
-bool Health::IsStarved() const { return processed_ == 0 || silent_reports_ > 0; }
-
 int8_t Health::State() const {
-  if (IsStarved()) return service_status_t::WAITING;
-  return dropped_ + refused_ + missing_ > reported_loss_ ? service_status_t::DEGRADED : service_status_t::OK;
+  if (processed_ == 0 || pace_report_.silent_s > 0.0) return service_status_t::WAITING;
+  const bool lost = dropped_ + refused_ + missing_ > reported_loss_;
+  return lost || pace_report_.IsSlow() ? service_status_t::DEGRADED : service_status_t::OK;
 }
 
 std::string Health::MissingByChannel() const {
@@ -100,13 +109,21 @@ std::string Health::MissingByChannel() const {
   return list;
 }
 
+std::string Health::PaceComplaint() const {
+  const InputPaceReport& input = pace_report_;
+  if (input.silent_s > 0.0) return fmt::format("no input for {:.1f} s", input.silent_s);
+  if (input.IsSlow()) return fmt::format("input at {:.2f} of real time, {:.1f} Hz", input.pace, input.rate_hz);
+  if (input.IsFast()) return fmt::format("input at {:.1f} times real time, {:.0f} Hz", input.pace, input.rate_hz);
+  return "";
+}
+
 std::string Health::Complaint() const {
-  if (silent_reports_ > 0) return fmt::format("no input for {} s", silent_reports_);
-  return MissingByChannel();
+  const std::string pace = PaceComplaint(), missing = MissingByChannel();
+  return pace.empty() || missing.empty() ? pace + missing : pace + ", " + missing;
 }
 
 service_status_t Health::Report(int64_t utime, bool wall_clock) {
-  silent_reports_ = wall_clock && input_utime_ != 0 && input_utime_ == reported_input_utime_ ? silent_reports_ + 1 : 0;
+  if (wall_clock) pace_report_ = pace_.Report(utime);
   service_status_t status{};
   status.utime = utime;
   status.input_utime = input_utime_;

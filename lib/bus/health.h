@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/input_pace.h"
+
 namespace lcmslam {
 
 class service_status_t;
@@ -36,10 +38,13 @@ class Health {
   void CountRefused() { ++refused_; }
   void CountMissing(std::string_view channel, int64_t messages);
   void SetDropped(int64_t messages) { dropped_ = messages; }
+  // An event that arrived at `arrival_utime` is now being handled; wall clock. Inputs noted until the next one came
+  // with it.
+  void BeginEvent(int64_t arrival_utime, int64_t now_utime);
   // A periodic input was accepted: looks for gaps, remembers the stamp.
   void NoteInput(std::string_view channel, int64_t utime);
   // The same for an input whose gaps are counted elsewhere.
-  void NoteStamp(int64_t utime) { input_utime_ = utime; }
+  void NoteStamp(int64_t utime);
   void NoteLatency(double latency_ms, double busy_ms);
   void SetText(std::string text) { text_ = std::move(text); }
 
@@ -56,10 +61,10 @@ class Health {
   std::string Summary() const;
 
  private:
-  bool IsStarved() const;
   int8_t State() const;
   // What State() is about, for people: "4 missing on LIDAR_2D"; empty when there is nothing to say.
   std::string Complaint() const;
+  std::string PaceComplaint() const;
   std::string MissingByChannel() const;
 
   std::string name_;
@@ -67,8 +72,10 @@ class Health {
   int64_t kernel_dropped_before_;  // this service started
   int64_t received_ = 0, processed_ = 0, dropped_ = 0, refused_ = 0, missing_ = 0;
   int64_t reported_loss_ = 0;
-  int silent_reports_ = 0;  // in a row, without a new input
   int64_t input_utime_ = 0, reported_input_utime_ = 0;
+  int64_t arrival_utime_ = 0, now_utime_ = 0;  // of the event in hand
+  InputPace pace_;
+  InputPaceReport pace_report_;
   double busy_ms_ = 0.0;
   std::vector<double> latencies_ms_;
   std::map<std::string, GapCounter, std::less<>> gaps_;

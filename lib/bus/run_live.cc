@@ -16,17 +16,18 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Wall-clock seconds, one tick each, none made up for when handling takes longer.
+// Wall-clock seconds, one tick each, none made up for when handling takes longer than that.
 class SecondTimer {
  public:
   bool Elapsed() {
     const auto now = steady_clock::now();
     if (now < next_) return false;
-    next_ = now + std::chrono::seconds(1);
+    next_ = std::max(next_, now - kTooLate) + std::chrono::seconds(1);
     return true;
   }
 
  private:
+  static constexpr milliseconds kTooLate{500};
   steady_clock::time_point next_ = steady_clock::now() + std::chrono::seconds(1);
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include <lcmslam/service_status_t.hpp>
 
@@ -46,6 +47,7 @@ const std::vector<const ServiceContext::Subscription*>& ServiceContext::Subscrip
 void ServiceContext::Dispatch(const Event& event, double waited_ms) {
   using Clock = std::chrono::steady_clock;
   now_utime_ = event.utime;
+  health_.BeginEvent(event.utime, event.utime + std::llround(1e3 * waited_ms));
   for (const Subscription* subscription : SubscriptionsTo(event.channel)) {
     const Clock::time_point start = Clock::now();
     const Handled handled = subscription->handler(event);

@@ -62,6 +62,8 @@ void BridgeOutput::Publish(int64_t utime, const std::string& channel, Bytes data
   bus_->Publish(channel, data);
   health_.CountReceived();
   health_.CountProcessed();
+  const int64_t now_utime = WallClockUtime();
+  health_.BeginEvent(now_utime, now_utime);
   health_.NoteStamp(utime);
   PublishStatusOnceASecond();
 }

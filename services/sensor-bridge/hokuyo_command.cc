@@ -68,6 +68,7 @@ void PublishScans(ScipSensor& sensor, const ScipParameters& parameters, BridgeOu
     if (!reply || !reply->command.starts_with("MD")) continue;
     if (reply->status != "99") throw CommandError(ExitCode::kRuntime, "scans end with status " + reply->status);
     const PlanarScan scan = DecodeScipScan(*reply, parameters, WallClockUtime());
+    output.health().BeginEvent(scan.utime, scan.utime);
     output.health().NoteInput(kMainLidarChannel, scan.utime);
     publisher.PublishScan(kMainLidarChannel, scan);
     publisher.Flush();

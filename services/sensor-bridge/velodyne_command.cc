@@ -33,6 +33,7 @@ void Take(const ReceivedDatagram& packet, uint16_t port, VelodyneBridge& bridge,
   const int64_t begin_utime = WallClockUtime(), refused = bridge.refused();
   bridge.Add(packet.payload, packet.received_utime, port);
   if (bridge.refused() > refused) return health.CountRefused();
+  health.BeginEvent(packet.received_utime, begin_utime);
   health.NoteInput(kPacketChannel, bridge.packet_utime());
   const int64_t end_utime = WallClockUtime();
   health.NoteLatency(1e-3 * static_cast<double>(UtimeDifference(end_utime, packet.received_utime)),

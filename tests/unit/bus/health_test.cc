@@ -63,14 +63,39 @@ TEST(Health, SaysOnWhichChannelMessagesAreMissing) {
 TEST(Health, StarvedWhenTheInputStandsStill) {
   Health health("x");
   health.CountProcessed();
-  health.NoteInput("SCAN", 1'000'000);
-  EXPECT_EQ(health.Report(0, true).state, int{service_status_t::OK});
-  EXPECT_EQ(health.Report(1, true).state, int{service_status_t::WAITING});
-  EXPECT_EQ(health.Report(2, true).text, "no input for 2 s");
-  health.NoteInput("SCAN", 1'050'000);
-  const service_status_t status = health.Report(3, true);
+  health.BeginEvent(1'000'000, 1'000'000);
+  health.NoteInput("SCAN", 70'000'000);
+  EXPECT_EQ(health.Report(1'100'000, true).state, int{service_status_t::OK});
+  EXPECT_EQ(health.Report(2'100'000, true).state, int{service_status_t::WAITING});
+  EXPECT_EQ(health.Report(3'100'000, true).text, "no input for 2.1 s");
+  health.BeginEvent(4'000'000, 4'000'000);
+  health.NoteInput("SCAN", 73'000'000);
+  const service_status_t status = health.Report(4'100'000, true);
   EXPECT_EQ(status.state, int{service_status_t::OK});
   EXPECT_EQ(status.text, "");
+}
+
+TEST(Health, SaysHowSlowOrFastTheInputComes) {
+  Health health("x");
+  health.CountProcessed();
+  int64_t now_utime = 1'000'000;
+  const auto report_after_second = [&](int inputs, int64_t stamp_step_us) {
+    static int64_t stamp_utime = 0;
+    for (int i = 0; i < inputs; ++i) {
+      now_utime += 1'000'000 / inputs;
+      health.BeginEvent(now_utime, now_utime);
+      health.NoteStamp(stamp_utime += stamp_step_us);
+    }
+    return health.Report(now_utime, true);
+  };
+  EXPECT_EQ(report_after_second(10, 100'000).text, "");
+  service_status_t status = report_after_second(4, 100'000);
+  EXPECT_EQ(status.text, "input at 0.40 of real time, 4.0 Hz");
+  EXPECT_EQ(status.state, int{service_status_t::DEGRADED});
+  status = report_after_second(200, 100'000);
+  EXPECT_EQ(status.text, "input at 20.0 times real time, 200 Hz");
+  EXPECT_EQ(status.state, int{service_status_t::OK}) << "as long as nothing is lost";
+  EXPECT_EQ(report_after_second(10, 100'000).text, "");
 }
 
 TEST(Health, WithoutWallClockNothingVaries) {
