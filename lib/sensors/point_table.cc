@@ -31,10 +31,16 @@ const Column& Need(const PointTable& table, std::string_view name) {
   return *column;
 }
 
+// Whether something was measured: drivers leave times and rings of other points as they happen to be.
+bool IsReturn(double x, double y, double z) {
+  return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && (x != 0.0 || y != 0.0 || z != 0.0);
+}
+bool IsReturn(const SweepPoint& p) { return IsReturn(p.x, p.y, p.z); }
+
 struct Times {
   const Column* column = nullptr;  // none: unknown
   double us_per_unit = 0.0;
-  double latest = 0.0;  // in units
+  double latest = 0.0;  // of a return, in units
 };
 
 Times FindTimes(const PointTable& table) {
@@ -42,14 +48,20 @@ Times FindTimes(const PointTable& table) {
   constexpr double kLatest_s = 1e14;  // no seconds since 1970 are more
   const Column* nanoseconds = Find(table, {"t", "offset_time"});
   const Column* column = nanoseconds != nullptr ? nanoseconds : Find(table, {"time", "timestamp"});
-  if (column == nullptr || column->empty()) return {};
-  const double latest = std::ranges::max(*column);
+  if (column == nullptr) return {};
+  const Column &x = Need(table, "x"), &y = Need(table, "y"), &z = Need(table, "z");
+  double latest = -std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < column->size(); ++i) {
+    if (IsReturn(x[i], y[i], z[i])) latest = std::max(latest, (*column)[i]);
+  }
+  if (!std::isfinite(latest)) return {};
   const bool in_nanoseconds = nanoseconds != nullptr || latest > kLatest_s;
   return {column, in_nanoseconds ? kUsPerNanosecond : kUsPerSecond, latest};
 }
 
 void SetTimes(const Times& times, std::vector<SweepPoint>& points) {
   for (size_t i = 0; i < points.size(); ++i) {
+    if (!IsReturn(points[i])) continue;
     const double dt_us = times.us_per_unit * ((*times.column)[i] - times.latest);
     if (!(dt_us >= -kLongestSweep_us)) throw BadInput("points with absurd times");
     points[i].dt_us = static_cast<int32_t>(std::lround(dt_us));
@@ -58,6 +70,7 @@ void SetTimes(const Times& times, std::vector<SweepPoint>& points) {
 
 void SetRings(const Column& rings, std::vector<SweepPoint>& points) {
   for (size_t i = 0; i < points.size(); ++i) {
+    if (!IsReturn(points[i])) continue;
     const bool fits = rings[i] >= 0.0 && rings[i] <= std::numeric_limits<int16_t>::max();
     if (!fits) throw BadInput(fmt::format("point of ring {}", rings[i]));
     points[i].ring = static_cast<int16_t>(rings[i]);

@@ -34,7 +34,7 @@ struct RosLaserScan {
   std::vector<float> ranges_m;
 };
 
-// A pose of `child_frame` in `frame`: T_frame_child. Not checked for being a pose: see IsPose().
+// A pose of `child_frame` in `frame`: T_frame_child. Not checked for being a pose: see Pose3::IsRigid().
 struct RosPose {
   int64_t utime = 0;        // us
   std::string frame;        // without a leading '/'

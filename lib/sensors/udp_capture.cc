@@ -26,20 +26,23 @@ Bytes Behind(Bytes bytes, size_t count) { return bytes.subspan(std::min(count, b
 
 // The IPv4 packet of a frame; empty when it holds none.
 Bytes IpPacket(Bytes frame, int link_type) {
-  size_t type_at = 0;
+  size_t type_at = 0, header_bytes = 0;
   switch (link_type) {
     case DLT_RAW:
       return frame;
     case DLT_EN10MB:
       type_at = Number16(frame, 12) == kVlan ? 16 : 12;
+      header_bytes = type_at + 2;
       break;
     case DLT_LINUX_SLL:
       type_at = 14;
+      header_bytes = 16;
       break;
-    default:
-      return {};
+    case DLT_LINUX_SLL2:
+      header_bytes = 20;  // begins with the type
+      break;
   }
-  return Number16(frame, type_at) == kIpv4 ? Behind(frame, type_at + 2) : Bytes();
+  return Number16(frame, type_at) == kIpv4 ? Behind(frame, header_bytes) : Bytes();
 }
 
 // RFC 791, RFC 768.
@@ -55,6 +58,10 @@ std::optional<UdpDatagram> Datagram(Bytes ip) {
                      .payload = udp.first(udp_bytes).subspan(kUdpHeaderBytes)};
 }
 
+bool IsRead(int link_type) {
+  return link_type == DLT_RAW || link_type == DLT_EN10MB || link_type == DLT_LINUX_SLL || link_type == DLT_LINUX_SLL2;
+}
+
 pcap* Open(const std::filesystem::path& path) {
   std::array<char, PCAP_ERRBUF_SIZE> error{};
   pcap* capture = pcap_open_offline(path.c_str(), error.data());
@@ -64,7 +71,12 @@ pcap* Open(const std::filesystem::path& path) {
 
 }  // namespace
 
-UdpCaptureReader::UdpCaptureReader(const std::filesystem::path& path) : path_(path), capture_(Open(path), pcap_close) {}
+UdpCaptureReader::UdpCaptureReader(const std::filesystem::path& path) : path_(path), capture_(Open(path), pcap_close) {
+  const int link_type = pcap_datalink(capture_.get());
+  if (!IsRead(link_type))
+    throw BadInput(
+        fmt::format("{}: frames of link type {}, neither Ethernet, Linux cooked nor raw IP", path.string(), link_type));
+}
 
 std::optional<UdpDatagram> UdpCaptureReader::Next() {
   pcap_pkthdr* header = nullptr;

@@ -18,8 +18,8 @@ struct UdpDatagram {
 };
 
 // Reads the UDP datagrams of a capture (pcap or pcapng; Ethernet, Linux cooked or raw IP, IPv4), one after the other.
-// Whatever else it holds is passed over, as are fragments. Throws BadInput with the file's name when it is no capture
-// or is damaged. One thread.
+// Whatever else it holds is passed over, as are fragments. Throws BadInput with the file's name when it is no capture,
+// of another link layer, or damaged. One thread.
 class UdpCaptureReader {
  public:
   explicit UdpCaptureReader(const std::filesystem::path& path);

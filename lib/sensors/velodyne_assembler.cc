@@ -1,18 +1,22 @@
 #include "sensors/velodyne_assembler.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include "geometry/utime.h"
 
 namespace lcmslam {
 namespace {
 
 constexpr int64_t kHour_us = 3'600'000'000;
 constexpr int64_t kLongestSweep_us = 1'000'000;
+constexpr int64_t kLargestDrift_us = 1'000'000;  // of the sensor's clock from one packet to the next
 
 }  // namespace
 
-std::vector<Sweep> VelodyneAssembler::Add(const VelodynePacket& packet, int64_t received_utime) {
+std::vector<Sweep> VelodyneAssembler::Add(const VelodynePacket& packet, std::optional<int64_t> received_utime) {
   std::vector<Sweep> complete;
   const auto complete_begun = [&] {
     if (std::optional<Sweep> sweep = Finish()) complete.push_back(*std::move(sweep));
@@ -44,13 +48,18 @@ std::optional<Sweep> VelodyneAssembler::Finish() {
   return sweep;
 }
 
-// The hour may end between two packets.
-int64_t VelodyneAssembler::Unwrap(uint32_t stamp_us, int64_t received_utime) {
+// The hour may end between two packets, and the sensor may find or lose its GPS.
+int64_t VelodyneAssembler::Unwrap(uint32_t stamp_us, std::optional<int64_t> received_utime) {
   const std::optional<uint32_t> last_stamp_us = std::exchange(last_stamp_us_, stamp_us);
-  if (!last_stamp_us) return received_utime;
+  const std::optional<int64_t> last_received_utime = std::exchange(received_utime_, received_utime);
+  if (!last_stamp_us) return received_utime.value_or(stamp_us);
   int64_t elapsed_us = int64_t{stamp_us} - int64_t{*last_stamp_us};
   if (elapsed_us < -kHour_us / 2) elapsed_us += kHour_us;
-  return packet_utime_ + elapsed_us;
+  if (!received_utime || !last_received_utime) return packet_utime_ + elapsed_us;
+  const int64_t received_elapsed_us = UtimeDifference(*received_utime, *last_received_utime);
+  const bool was_set = received_elapsed_us !=
+                       std::clamp(received_elapsed_us, elapsed_us - kLargestDrift_us, elapsed_us + kLargestDrift_us);
+  return was_set ? *received_utime : packet_utime_ + elapsed_us;
 }
 
 }  // namespace lcmslam

@@ -9,7 +9,7 @@ std::vector<Sweep> VelodyneDecoder::Add(std::span<const uint8_t> payload, std::o
   try {
     const VelodynePacket packet = DecodeVelodynePacket(payload);
     ++packets_;
-    return assembler_.Add(packet, received_utime.value_or(packet.stamp_us));
+    return assembler_.Add(packet, received_utime);
   } catch (const BadInput&) {
     ++refused_;
     return {};

@@ -102,6 +102,19 @@ TEST(RosPointCloud, HesaiCountsSecondsSince1970) {
   EXPECT_NEAR(other_clock.points[0].dt_us, -100'000, 1);
 }
 
+TEST(RosPointCloud, TimesOfWhatIsNoReturnDoNotCount) {
+  const std::vector<RosField> fields{{"x", 0}, {"y", 4}, {"z", 8}, {"timestamp", 12, RosField::kFloat64}};
+  const auto point = [](float x, double time_s) { return RosBytes().Put(x).Put(x).Put(x).Put(time_s).data(); };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Sweep sweep = SweepOf(RosPointCloudBytes(
+      kUtime, "organised", fields, 20,
+      point(nan, 0.0) + point(1.0F, 1.6e9 - 0.1) + point(0.0F, 2e9) + point(nan, nan) + point(2.0F, 1.6e9)));
+  ASSERT_EQ(sweep.points.size(), 2U);
+  EXPECT_EQ(sweep.utime, kUtime);
+  EXPECT_NEAR(sweep.points[0].dt_us, -100'000, 1);
+  EXPECT_EQ(sweep.points[1].dt_us, 0);
+}
+
 TEST(RosPointCloud, PointsMayHaveNothingButCoordinates) {
   const std::vector<RosField> fields{
       {"x", 0, RosField::kFloat64}, {"y", 8, RosField::kFloat64}, {"z", 16, RosField::kFloat64}};

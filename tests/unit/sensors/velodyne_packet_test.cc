@@ -178,6 +178,20 @@ TEST(VelodyneAssembler, LivesThroughTheEndOfTheHour) {
   EXPECT_NEAR(static_cast<double>(sweeps[1].utime), 1e5 * (2.0 + 10.0 / 360.0), 120.0);
 }
 
+TEST(VelodyneAssembler, AClockThatFindsGpsMovesNoStamps) {
+  for (const double set_to_us : {2.0e9, 100.0}) {
+    SCOPED_TRACE(set_to_us);
+    VelodyneAssembler assembler;
+    Stream before(350.0, 1e9), after(350.0, set_to_us);
+    int64_t received_utime = 5'000'000;
+    for (int i = 0; i < 200; ++i, received_utime += 1327) {
+      for (const Sweep& sweep : assembler.Add(i < 90 ? before.Next() : after.Next(), received_utime))
+        EXPECT_NEAR(static_cast<double>(sweep.utime), static_cast<double>(received_utime), 3000.0);
+    }
+    EXPECT_NEAR(static_cast<double>(assembler.packet_utime()), static_cast<double>(received_utime), 3000.0);
+  }
+}
+
 TEST(VelodyneAssembler, LostPacketsLeaveAGap) {
   Stream stream(350.0);
   VelodyneAssembler assembler;

@@ -41,13 +41,14 @@ TEST(VelodyneReader, BareAndCapturedAreTheSame) {
   const Outcome bare = Read(Joined(payloads));
   ASSERT_EQ(bare.sweeps.size(), 1u) << "the second of three turns: the first has no cut before, the last none behind";
   EXPECT_EQ(bare.packets, 216);
-  for (const uint32_t link_type : {1U, 101U, 113U}) {
+  for (const uint32_t link_type : {1U, 101U, 113U, 276U}) {
     SCOPED_TRACE(link_type);
     CaptureBuilder capture(link_type);
     for (size_t i = 0; i < payloads.size(); ++i) {
       const std::string ip = UdpOverIp(payloads[i], 2368);
       const std::string frame = link_type == 1     ? Ethernet(ip, i % 2 == 0)
                                 : link_type == 113 ? std::string(14, 's') + std::string("\x08\0", 2) + ip
+                                : link_type == 276 ? std::string("\x08\0", 2) + std::string(18, 's') + ip
                                                    : ip;
       capture.Frame(7'000'000 + static_cast<int64_t>(i), frame);
     }
@@ -91,6 +92,7 @@ TEST(VelodyneReader, SaysWhatIsWrongWithAFile) {
   CaptureBuilder capture(1);
   capture.Frame(0, Ethernet(UdpOverIp(VelodyneTurns(3)[0], 2368)));
   EXPECT_THAT(Read(capture.Bytes().substr(0, 600)).error, HasSubstr("truncated"));
+  EXPECT_THAT(Read(CaptureBuilder(105).Bytes()).error, HasSubstr("link type 105"));  // 802.11
   EXPECT_THROW(VelodyneReader("no/such/file"), BadInput);
 }
 
