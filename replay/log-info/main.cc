@@ -1,5 +1,6 @@
 // log-info LOG: what an LCM log holds, by channel.
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -22,7 +23,7 @@
 #include <lcmslam/surfel_chunk_t.hpp>
 
 #include "bus/log_reader.h"
-#include "common/run_service.h"
+#include "common/command_line.h"
 
 namespace lcmslam {
 namespace {
@@ -36,7 +37,8 @@ struct Channel {
 
 struct Contents {
   std::map<std::string, Channel> channels;
-  std::string damage;
+  std::string damage_report;  // "" or one line
+  bool is_damaged = false;    // not so when only the last event is cut off
 };
 
 template <class... Messages>
@@ -64,21 +66,36 @@ Contents Read(const std::string& path) {
     channel.bytes += static_cast<int64_t>(event.data.size());
     channel.fingerprints.insert(Fingerprint(event.data));
   }
-  contents.damage = reader.DamageReport();
+  contents.damage_report = reader.DamageReport();
+  contents.is_damaged = reader.damaged_bytes() > 0;
   return contents;
 }
 
 void Print(const Contents& contents) {
-  fmt::print("{:<24} {:<20} {:>9} {:>10} {:>9} {:>11}\n", "channel", "type", "messages", "seconds", "hertz",
+  size_t width = 24;
+  for (const auto& [name, channel] : contents.channels) width = std::max(width, name.size());
+  fmt::print("{:<{}} {:<20} {:>9} {:>10} {:>9} {:>11}\n", "channel", width, "type", "messages", "seconds", "hertz",
              "mean bytes");
   for (const auto& [name, channel] : contents.channels) {
     const double seconds = static_cast<double>(channel.last_utime - channel.first_utime) * 1e-6;
     const double hertz = seconds > 0.0 ? static_cast<double>(channel.messages - 1) / seconds : 0.0;
     const std::string type = channel.fingerprints.size() == 1 ? TypeName(*channel.fingerprints.begin()) : "(several)";
-    fmt::print("{:<24} {:<20} {:>9} {:>10.1f} {:>9.2f} {:>11}\n", name, type, channel.messages, seconds, hertz,
+    fmt::print("{:<{}} {:<20} {:>9} {:>10.1f} {:>9.2f} {:>11}\n", name, width, type, channel.messages, seconds, hertz,
                channel.bytes / channel.messages);
   }
-  if (!contents.damage.empty()) fmt::print(stderr, "{}\n", contents.damage);
+}
+
+// `count`: "" or the channel whose number of messages is wanted.
+ExitCode Tell(const std::string& path, const std::string& count) {
+  const Contents contents = Read(path);
+  if (count.empty()) {
+    Print(contents);
+  } else {
+    const auto channel = contents.channels.find(count);
+    fmt::print("{}\n", channel == contents.channels.end() ? 0 : channel->second.messages);
+  }
+  if (!contents.damage_report.empty()) fmt::print(stderr, "{}\n", contents.damage_report);
+  return contents.is_damaged ? ExitCode::kBadInput : ExitCode::kOk;
 }
 
 }  // namespace
@@ -89,15 +106,5 @@ int main(int argc, char** argv) {
   std::string path, count;
   app.add_option("LOG", path, "LCM log")->required();
   app.add_option("--count", count, "print only the number of messages on this channel");
-  CLI11_PARSE(app, argc, argv);
-  return lcmslam::RunCommand("log-info", [&] {
-    const lcmslam::Contents contents = lcmslam::Read(path);
-    if (count.empty()) {
-      lcmslam::Print(contents);
-    } else {
-      const auto channel = contents.channels.find(count);
-      fmt::print("{}\n", channel == contents.channels.end() ? 0 : channel->second.messages);
-    }
-    return lcmslam::ExitCode::kOk;
-  });
+  return lcmslam::RunCommandLine(app, argc, argv, [&] { return lcmslam::Tell(path, count); });
 }

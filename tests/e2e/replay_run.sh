@@ -19,11 +19,20 @@ refuses() {
   check_refused "unknown option" 2 "--frobnicate" "$root/replay/run" episode.lcm --frobnicate
   check_refused "option without value" 2 "--out: needs a value" "$root/replay/run" episode.lcm --out
   check_refused "speed that is none" 2 "--speed fast" "$root/replay/run" episode.lcm --live --speed fast
+  check_refused "no speed at all" 2 "--speed 0: not a positive" "$root/replay/run" episode.lcm --live --speed 0
   check_refused "system that is none" 2 "hector" "$root/replay/run" episode.lcm --systems hector
   check_refused "bad configuration of a service" 2 "run: sdf2d-slam ended with code 2: .*cell_m" \
     "$root/replay/run" episode.lcm --set sdf2d-slam:cell_m=-1
+  check_refused "configuration of what does not run" 2 "octo3d-slam does not run" \
+    "$root/replay/run" episode.lcm --set octo3d-slam:leaf_m=1
+  check_refused "scans for a system of sweeps" 4 "octo3d-slam: no pose from episode.lcm" \
+    "$root/replay/run" episode.lcm --systems octo3d-slam
   head -c 10000 /dev/zero >damaged.bag
   check_refused "damaged bag" 3 "damaged.bag" "$root/replay/run" damaged.bag
+  cp damaged.bag zeros
+  check_refused "bag by another name" 3 "zeros: not an LCM log.*\.bag" "$root/replay/run" zeros
+  { head -c 300000 episode.lcm && head -c 500 /dev/zero && tail -c +300001 episode.lcm; } >damaged.lcm
+  check_refused "damage in the middle" 3 "run: damaged.lcm: [0-9]+ damaged bytes" "$root/replay/run" damaged.lcm --live
 }
 
 # On SIGINT and SIGTERM in the middle of a live run.
@@ -47,8 +56,11 @@ cleans_up() {
 services_of() { pgrep -fc "[ =]$1/[^ ]*-episode" || true; }
 
 keeps_results() {
+  mkdir -p "it's a folder"
   "$root/replay/run" episode.lcm --out kept
-  "$root/replay/run" episode.lcm --out kept
+  (cd "it's a folder" && "$root/replay/run" ../episode.lcm --out ../kept)
+  check "named after the log" test "$(compgen -G 'kept/*-episode' | wc -l)" -ge 1
+  check "a folder of any name" "$root/replay/run" episode.lcm --out "it's a folder"
   check "two folders and the link" test "$(find kept -mindepth 1 -maxdepth 1 | wc -l)" = 3
   check "latest is the newer one" test "$(readlink kept/latest)" = "$(find kept -mindepth 1 -maxdepth 1 -type d -printf '%f\n' | sort -V | tail -n 1)"
 }
