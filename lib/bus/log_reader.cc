@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "bus/errors.h"
+#include "bus/lcm_log.h"
 
 namespace lcmslam {
 namespace {
 
-constexpr std::array<char, 4> kSync = {'\xED', '\xA1', '\xDA', '\x01'};
 constexpr size_t kHeaderBytes = 28;
 constexpr size_t kMaxChannelBytes = 256;
 
@@ -47,7 +47,7 @@ bool LogReader::ReadEventHere(Event& event) {
   file_.clear();
   file_.seekg(static_cast<std::streamoff>(position_));
   if (!file_.read(header.data(), header.size())) return false;
-  if (!std::equal(kSync.begin(), kSync.end(), header.begin())) return false;
+  if (!std::equal(kLcmLogSync.begin(), kLcmLogSync.end(), header.begin())) return false;
   const uint64_t channel_bytes = BigEndian(&header[20], 4);
   const uint64_t data_bytes = BigEndian(&header[24], 4);
   if (channel_bytes == 0 || channel_bytes > kMaxChannelBytes || data_bytes > size_bytes_) return false;
@@ -65,9 +65,9 @@ bool LogReader::ReadEventHere(Event& event) {
 
 // A length that is too large leads to a place where no event starts, and swallows events whole.
 bool LogReader::LengthIsDamaged(const Event& event, uint64_t end) {
-  std::array<char, kSync.size()> next;
-  if (end == size_bytes_ || (file_.read(next.data(), next.size()) && next == kSync)) return false;
-  return !std::ranges::search(event.data, kSync, {}, [](uint8_t byte) { return static_cast<char>(byte); }).empty();
+  std::array<char, kLcmLogSync.size()> next;
+  if (end == size_bytes_ || (file_.read(next.data(), next.size()) && next == kLcmLogSync)) return false;
+  return !std::ranges::search(event.data, kLcmLogSync, {}, [](uint8_t byte) { return static_cast<char>(byte); }).empty();
 }
 
 // Moves to the next sync word behind the present position.
@@ -75,20 +75,20 @@ void LogReader::Resynchronize() {
   const uint64_t start = position_;
   uint64_t search = start + 1;
   std::array<char, 1 << 16> buffer;
-  while (search + kSync.size() <= size_bytes_) {
+  while (search + kLcmLogSync.size() <= size_bytes_) {
     file_.clear();
     file_.seekg(static_cast<std::streamoff>(search));
     file_.read(buffer.data(), buffer.size());
     const std::string_view window(buffer.data(), static_cast<size_t>(file_.gcount()));
-    const size_t found = window.find(std::string_view(kSync.data(), kSync.size()));
+    const size_t found = window.find(std::string_view(kLcmLogSync.data(), kLcmLogSync.size()));
     if (found != std::string_view::npos) {
       position_ = search + found;
       if (damaged_bytes_ == 0) first_damage_ = start;
       damaged_bytes_ += position_ - start;
       return;
     }
-    if (window.size() < kSync.size()) break;
-    search += window.size() - (kSync.size() - 1);
+    if (window.size() < kLcmLogSync.size()) break;
+    search += window.size() - (kLcmLogSync.size() - 1);
   }
   cut_bytes_ = size_bytes_ - start;
   position_ = size_bytes_;

@@ -1,6 +1,7 @@
 #include "common/config.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -40,7 +41,7 @@ void LoadConfig(const std::string& path, pb::Message& config) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
-  if (!file) Fail(fmt::format("{}: cannot be read", path));
+  if (!file || std::filesystem::is_directory(path)) Fail(fmt::format("{}: cannot be read", path));
   FirstError error;
   pb::TextFormat::Parser parser;
   parser.RecordErrorsTo(&error);

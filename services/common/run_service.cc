@@ -1,5 +1,6 @@
 #include "common/run_service.h"
 
+#include <cstdio>
 #include <fstream>
 
 #include <CLI/CLI.hpp>
@@ -11,7 +12,9 @@
 namespace lcmslam {
 int RunCommand(const std::string& name, const std::function<ExitCode()>& body) {
   try {
-    return static_cast<int>(body());
+    const ExitCode code = body();
+    if (std::fflush(stdout) != 0) throw CommandError(ExitCode::kRuntime, "standard output cannot be written");
+    return static_cast<int>(code);
   } catch (const CommandError& error) {
     fmt::print(stderr, "{}: {}\n", name, error.what());
     return static_cast<int>(error.code());

@@ -18,8 +18,8 @@ class Message;
 
 namespace lcmslam {
 
-// What every command line of the project shares: exit codes, one-line errors.
-// Runs `body`; a CommandError ends it with its line and code, any other exception with kRuntime.
+// What every command line shares. Runs `body`; a CommandError ends it with its line on stderr and its code, any other
+// exception with kRuntime, as does standard output that cannot be written.
 int RunCommand(const std::string& name, const std::function<ExitCode()>& body);
 
 // What the command line of every service has. With options of its own a service adds them to the same App.

@@ -55,9 +55,13 @@ ExitCode Report(result::Evaluation& message, const EvaluatorOptions& options, co
   return met ? ExitCode::kOk : ExitCode::kThresholdMissed;
 }
 
+bool WantsReference(const EvaluateArguments& arguments) {
+  return arguments.relations.empty() || !arguments.reference.empty();
+}
+
 PoseSources ReadSources(const EvaluateArguments& arguments, const EvaluatorOptions& options) {
   const auto& log = arguments.service.run.log_in;
-  const bool needs_reference = arguments.relations.empty() || !arguments.reference.empty();
+  const bool needs_reference = WantsReference(arguments);
   if (log.empty()) {
     RequireUsage(!needs_reference || NamesFile(arguments.reference), "--reference FILE or --relations FILE: required");
     if (!needs_reference) return {ReadPoseFile(arguments.estimate, arguments.read), {}};
@@ -114,6 +118,7 @@ RelationErrors EvaluateRelationFile(const PoseSource& estimate, const std::files
 }
 
 ExitCode EvaluateRecording(const EvaluateArguments& arguments, const EvaluatorOptions& options) {
+  RequireUsage(arguments.evo_zip.empty() || WantsReference(arguments), "--evo-zip: needs --reference");
   PoseSources sources = ReadSources(arguments, options);
   result::Evaluation message;
   message.set_command(arguments.command);
@@ -167,15 +172,15 @@ ExitCode EvaluateOnBus(const EvaluateArguments& arguments, EvaluatorOptions opti
     message.set_command(arguments.command);
     message.mutable_estimate()->set_name(outcome.estimate_channel);
     message.mutable_estimate()->set_poses(static_cast<int32_t>(outcome.estimate_poses));
-    message.mutable_reference()->set_name(outcome.reference_channel);
+    const bool has_reference = !outcome.reference_channel.empty();
+    message.mutable_reference()->set_name(has_reference ? outcome.reference_channel : options.reference_channel);
     message.mutable_reference()->set_poses(static_cast<int32_t>(outcome.reference_poses));
     if (!outcome.text.empty()) message.add_notes(outcome.text);
-    if (outcome.evaluation.status == EvaluationStatus::kOk) {
-      AddEvaluation(outcome.evaluation, options.evaluation, message);
-    }
+    const bool any_matched = outcome.evaluation.status == EvaluationStatus::kOk;
+    if (any_matched) AddEvaluation(outcome.evaluation, options.evaluation, message);
     const ExitCode judged =
         Report(message, options, JsonPath(arguments.json, outcome.estimate_channel, outcomes.size() == 1));
-    if (code == ExitCode::kOk) code = judged;
+    if (code == ExitCode::kOk) code = any_matched || judged == ExitCode::kOk ? judged : ExitCode::kNothingMatched;
   }
   return code;
 }

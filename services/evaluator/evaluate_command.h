@@ -16,10 +16,6 @@ namespace lcmslam {
 namespace config {
 class Evaluator;
 }
-namespace result {
-class Evaluation;
-}
-struct EvaluatorOptions;
 
 // The command line of evaluator, besides what every service has.
 struct EvaluateArguments {
@@ -31,8 +27,8 @@ struct EvaluateArguments {
   std::filesystem::path evo_zip;
   ReadOptions read;
 };
-// Flags that are configuration too (--align, --max-mean, ...) go into `config`, where they win over --config and --set
-// once ApplyFlags is called.
+// Flags that are configuration too (--align, --max-mean, ...) go into `flags`, which RunEvaluate lets win over --config
+// and --set. Both have to outlive the parsing.
 void AddEvaluateOptions(CLI::App& app, EvaluateArguments& arguments, config::Evaluator& flags);
 
 // Evaluates files or a log, or runs on the bus; prints the table, writes JSON. kThresholdMissed when a demand is

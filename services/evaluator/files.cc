@@ -19,7 +19,8 @@ std::string ReadFile(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream bytes;
   bytes << file.rdbuf();
-  if (!file) throw CommandError(ExitCode::kBadInput, fmt::format("{}: cannot be read", path.string()));
+  if (!file || std::filesystem::is_directory(path))
+    throw CommandError(ExitCode::kBadInput, fmt::format("{}: cannot be read", path.string()));
   return bytes.str();
 }
 

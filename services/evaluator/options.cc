@@ -60,6 +60,7 @@ std::string EvaluatorOptions::Validate() const {
   if (estimate_channel.empty()) return "estimate_channel: must not be empty";
   if (reference_channel.empty()) return "reference_channel: must not be empty";
   if (evaluation_channel.empty()) return "evaluation_channel: must not be empty";
+  if (thresholds.min_coverage > 1.0) return "thresholds.min_coverage: must be in 0..1";
   return evaluation.Validate();
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bus/errors.h"
+#include "bus/lcm_log.h"
 #include "bus/log_reader.h"
 #include "bus/messages.h"
 #include "bus/progress.h"
@@ -89,6 +90,9 @@ bool NamesFile(const std::string& name) {
 
 PoseSource ReadPoseFile(const std::filesystem::path& path, const ReadOptions& options) {
   TrajectoryFile file = ReadTrajectory(path, options);
+  if (!file.error.empty() && BeginsAsLcmLog(path))
+    file.error =
+        path.string() + ": an LCM log, no trajectory file: evaluate it with --log-in, convert it with --channel";
   if (!file.error.empty()) throw CommandError(ExitCode::kBadInput, file.error);
   return {.name = path.string(), .channel = "", .trajectory = std::move(file.trajectory)};
 }

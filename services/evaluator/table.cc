@@ -123,7 +123,8 @@ void PrintTiming(Text& text, const result::Timing& timing) {
 void PrintThresholds(Text& text, const Message& m) {
   if (m.thresholds_size() > 0) Print(text, "\n");
   for (const auto& t : m.thresholds()) {
-    Print(text, "{} {}: {:.6g}, limit {:.6g}\n", t.met() ? "met   " : "MISSED", t.name(), t.value(), t.limit());
+    const std::string value = t.has_value() ? fmt::format("{:.6g}", t.value()) : "not measured";
+    Print(text, "{} {}: {}, limit {:.6g}\n", t.met() ? "met   " : "MISSED", t.name(), value, t.limit());
   }
 }
 

@@ -53,7 +53,7 @@ template <class Options>
 CLI::App* AddFormat(CLI::App& import, const std::string& name, const std::string& description, Options& options,
                     OutputOptions& output) {
   CLI::App* format = import.add_subcommand(name, description);
-  format->add_option("file", options.file, "the log")->required();
+  format->add_option(std::is_same_v<Options, CloudImportOptions> ? "FOLDER" : "FILE", options.file)->required();
   AddPacedOutputOptions(*format, output);
   return format;
 }

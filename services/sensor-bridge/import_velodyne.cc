@@ -1,12 +1,10 @@
-#include <array>
-#include <fstream>
-#include <string_view>
-
 #include <fmt/format.h>
 #include <lcmslam/lidar_packet_t.hpp>
 
+#include "bus/lcm_log.h"
 #include "bus/log_reader.h"
 #include "bus/signals.h"
+#include "geometry/utime.h"
 #include "sensor-bridge/lidar_channels.h"
 #include "sensor-bridge/log_import.h"
 #include "sensor-bridge/velodyne_bridge.h"
@@ -19,13 +17,6 @@ namespace {
 
 bool IsPacket(Bytes message) { return Fingerprint(message) == lidar_packet_t::getHash(); }
 
-bool IsLcmLog(const std::filesystem::path& path) {
-  constexpr std::string_view kEventStart = "\xED\xA1\xDA\x01";
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, kEventStart.size()> start{};
-  return file.read(start.data(), start.size()) && std::string_view(start.data(), start.size()) == kEventStart;
-}
-
 void ImportLcmLog(const VelodyneImportOptions& options, SensorPublisher& publisher, VelodyneBridge& bridge) {
   LogReader reader(options.file);
   for (Event event; !StopRequested() && reader.Next(event);) {
@@ -35,7 +26,7 @@ void ImportLcmLog(const VelodyneImportOptions& options, SensorPublisher& publish
       continue;
     }
     const auto packet = Decode<lidar_packet_t>(event.data);
-    if (!packet)
+    if (!packet || !IsReasonableUtime(packet->utime))
       throw BadInput(fmt::format("{}: malformed message on {} before offset {}", options.file.string(), event.channel,
                                  reader.position_bytes()));
     const auto port = static_cast<uint16_t>(packet->port);
@@ -60,11 +51,17 @@ void ImportPayloads(const VelodyneImportOptions& options, VelodyneBridge& bridge
   }
 }
 
+std::string WhyNoSweep(const VelodyneImportOptions& options, const VelodyneBridge& bridge) {
+  if (bridge.packets() > 0) return fmt::format("no whole turn of a VLP-16 or HDL-32E; {}", bridge.Summary());
+  return fmt::format("no packet of a VLP-16 or HDL-32E{}",
+                     options.port == 0 ? "" : fmt::format(" to port {}", options.port));
+}
+
 }  // namespace
 
 void ImportVelodyne(const VelodyneImportOptions& options, SensorPublisher& publisher, const Note& note) {
   VelodyneBridge bridge(publisher, options.keep_packets);
-  if (IsLcmLog(options.file)) {
+  if (BeginsAsLcmLog(options.file)) {
     ImportLcmLog(options, publisher, bridge);
   } else {
     publisher.ExpectScans(CountSweeps(options));
@@ -72,8 +69,7 @@ void ImportVelodyne(const VelodyneImportOptions& options, SensorPublisher& publi
   }
   note(bridge.Summary());
   if (bridge.sweeps() == 0 && !StopRequested())
-    throw BadInput(
-        fmt::format("{}: no whole turn of a VLP-16 or HDL-32E; {}", options.file.string(), bridge.Summary()));
+    throw BadInput(fmt::format("{}: {}", options.file.string(), WhyNoSweep(options, bridge)));
 }
 
 }  // namespace lcmslam

@@ -1,10 +1,8 @@
 #include "sensor-bridge/simulate_command.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,7 +22,7 @@ namespace {
 
 struct SimulateOptions {
   std::string episode_file;
-  std::optional<int64_t> seed;
+  std::string seed;  // "": the episode's
   std::vector<std::string> assignments;
   bool print_config = false;
   std::filesystem::path bound_file;
@@ -41,7 +39,7 @@ ExitCode Simulate(const SimulateOptions& options) {
   config::Episode config;
   LoadConfig(options.episode_file, config);
   for (const std::string& assignment : options.assignments) SetConfigField(assignment, config);
-  if (options.seed) config.set_seed(*options.seed);
+  if (!options.seed.empty()) SetConfigField("seed=" + options.seed, config);
   const Episode episode = MakeEpisode(config, std::filesystem::path(options.episode_file).parent_path());
   if (options.print_config) {
     fmt::print("{}", ConfigText(config));
@@ -52,7 +50,10 @@ ExitCode Simulate(const SimulateOptions& options) {
   BridgeOutput output(options.output);
   SensorPublisher publisher(output, options.output.quiet);
   std::ofstream bound_file;
-  if (!options.bound_file.empty()) bound_file.open(options.bound_file, std::ios::binary);
+  if (!options.bound_file.empty()) {
+    bound_file.open(options.bound_file, std::ios::binary);
+    RequireWritten(bound_file, options.bound_file);
+  }
   BoundSummary bound(options.bound_file.empty() ? nullptr : &bound_file);
   std::visit(
       [&](const auto& any_episode) {
@@ -74,7 +75,7 @@ void AddSimulateCommand(CLI::App& app, std::function<ExitCode()>& command) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* simulate = app.add_subcommand("simulate", "Take a simulated lidar through a simulated world");
   simulate->add_option("--episode", options->episode_file, "Protocol Buffers text, see episode.proto")->required();
-  simulate->add_option("--seed", options->seed, "instead of the episode's");
+  simulate->add_option("--seed", options->seed, "instead of the episode's")->type_name("INT");
   simulate->add_option("--set", options->assignments, "path=value: set one field of the episode (repeatable)")
       ->allow_extra_args(false);
   simulate->add_flag("--print-config", options->print_config, "print the episode with its defaults and end");

@@ -15,8 +15,7 @@ void VelodyneBridge::Add(std::span<const uint8_t> payload, std::optional<int64_t
 }
 
 std::string VelodyneBridge::Summary() const {
-  return fmt::format("{} packets, {} of them not to be decoded", decoder_.packets() + decoder_.refused(),
-                     decoder_.refused());
+  return fmt::format("{} packets, {} of them not to be decoded", packets(), refused());
 }
 
 }  // namespace lcmslam

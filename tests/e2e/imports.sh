@@ -49,7 +49,7 @@ same_bytes_again() {
 
 refuses() {
   local import=("$bin/sensor-bridge" import) out=(--quiet --log-out refused.lcm)
-  check_refused "another sensor's capture" 3 "OS-1-64.*no whole turn" \
+  check_refused "another sensor's capture" 3 "OS-1-64.*no packet of a VLP-16 or HDL-32E$" \
     "${import[@]}" velodyne "$data/packets/OS-1-64_1024x10_fw20.pcap" "${out[@]}"
   head -c 300000 "$data/packets/vlp16_gps.pcap" >cut.pcap
   check_refused "a capture that was cut off" 3 "cut.pcap: truncated" "${import[@]}" velodyne cut.pcap "${out[@]}"

@@ -141,8 +141,8 @@ void CompleteRun(const Episode& episode, const std::string& system, const Failur
 }  // namespace
 
 std::string FailureRule::Validate() const {
-  if (!(max_mean_m > 0.0)) return "failure: must be positive";
-  if (!(min_coverage >= 0.0 && min_coverage <= 1.0)) return "min_coverage: must be in [0, 1]";
+  if (!(max_mean_m > 0.0)) return "--failure: must be positive";
+  if (!(min_coverage >= 0.0 && min_coverage <= 1.0)) return "--failure-coverage: must be in 0..1";
   return "";
 }
 

@@ -165,6 +165,11 @@ TEST(BadInput, ChannelsAndFlags) {
   ExpectRefused({"--estimate", estimate.path()}, 2, "--reference FILE or --relations FILE: required\n");
   ExpectRefused(with({"--align", "sim3"}), 2, "--align: sim3 not in {auto,none,first,yaw,se2,se3,calibrate}\n");
   ExpectRefused(with({"--max-gap", "-1"}), 2, "association.max_gap_us: must be positive\n");
+  ExpectRefused(with({"--min-coverage", "95"}), 2, "thresholds.min_coverage: must be in 0..1\n");
+  ExpectRefused(with({"--config", "/tmp"}), 2, "/tmp: cannot be read\n");
+  ExpectRefused({"--estimate", estimate.path(), "--relations", "x", "--evo-zip", out.path()}, 2,
+                "--evo-zip: needs --reference\n");
+  ExpectRefused({"--estimate", log.path(), "--reference", reference.path()}, 3, ": an LCM log, no trajectory file");
   ExpectRefused({"--log-in", log.path(), "--log-out", out.path(), "--align", "calibrate"}, 2,
                 "only with files or --log-in alone\n");
 }

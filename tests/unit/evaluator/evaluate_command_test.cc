@@ -157,6 +157,17 @@ TEST(Evaluate, ThresholdsDecideTheExitCode) {
   EXPECT_THAT(run("--max-mean", "0.019").out, HasSubstr("MISSED max_mean_m: 0.0199999, limit 0.019"));
 }
 
+TEST(Evaluate, DemandsWithoutAReferenceAreNotMeasured) {
+  const TemporaryFile log, out;
+  LogWriter writer(log.path());
+  for (const StampedPose& pose : Estimate(0.02)) writer.Write(pose.utime, "SDF2D_POSE", ToMessage(pose));
+  writer.Flush();
+  const Outcome run = Evaluator({"--log-in", log.path(), "--log-out", out.path(), "--quiet", "--max-mean", "1"});
+  EXPECT_EQ(run.code, 4);
+  EXPECT_THAT(run.out, HasSubstr("reference    GROUND_TRUTH|TRUE_POSE, 0 poses"));
+  EXPECT_THAT(run.out, HasSubstr("MISSED max_mean_m: not measured, limit 1\n"));
+}
+
 TEST(Evaluate, DamagedLogIsEvaluatedAndSaid) {
   const TemporaryFile log;
   WriteLog(log.path(), Estimate(0.02), Reference());

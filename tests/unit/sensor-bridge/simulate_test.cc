@@ -139,8 +139,12 @@ TEST(Simulate, RefusesBadEpisodes) {
   EXPECT_EQ(Simulated("duration_s: nan").exit_code, 2);
   EXPECT_EQ(Simulated("planar {} spatial {}").exit_code, 2);
   EXPECT_EQ(Simulated("", {"--seed", "-3"}).exit_code, 2);
+  EXPECT_EQ(Simulated("", {"--seed", "99999999999999999999"}).exit_code, 2) << "no other seed in its place";
+  EXPECT_EQ(Bridge({"simulate", "--episode", "/tmp"}), 2) << "a folder is no empty file";
   EXPECT_EQ(Simulated("planar { world { map: 'none.yaml' } }").exit_code, 3);
-  EXPECT_EQ(Simulated("duration_s: 1", {"--bound", "/nowhere/bound.csv"}).exit_code, 1);
+  const Simulated no_bound("duration_s: 1", {"--bound", "/nowhere/bound.csv"});
+  EXPECT_EQ(no_bound.exit_code, 1);
+  EXPECT_TRUE(no_bound.log.empty()) << "said before it is simulated";
 }
 
 TEST(Simulate, EveryShippedEpisodeRuns) {
