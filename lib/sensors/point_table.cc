@@ -51,10 +51,14 @@ Times FindTimes(const PointTable& table) {
   if (column == nullptr) return {};
   const Column &x = Need(table, "x"), &y = Need(table, "y"), &z = Need(table, "z");
   double latest = -std::numeric_limits<double>::infinity();
+  bool any_return = false;
   for (size_t i = 0; i < column->size(); ++i) {
-    if (IsReturn(x[i], y[i], z[i])) latest = std::max(latest, (*column)[i]);
+    if (!IsReturn(x[i], y[i], z[i])) continue;
+    any_return = true;
+    latest = std::max(latest, (*column)[i]);
   }
-  if (!std::isfinite(latest)) return {};
+  if (!any_return) return {};
+  if (!std::isfinite(latest)) throw BadInput("points with absurd times");
   const bool in_nanoseconds = nanoseconds != nullptr || latest > kLatest_s;
   return {column, in_nanoseconds ? kUsPerNanosecond : kUsPerSecond, latest};
 }

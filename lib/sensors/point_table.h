@@ -26,7 +26,7 @@ struct PointTable {
 
 // The latest of the returns' times, us, after whatever their origin is; none where there are no times or returns. They
 // stand in t or offset_time (integer nanoseconds: Ouster, Livox), time (seconds: Velodyne), or timestamp (since 1970,
-// in seconds: Hesai, RoboSense; or nanoseconds: Livox).
+// in seconds: Hesai, RoboSense; or nanoseconds: Livox). Throws as ToSweepPoints does.
 [[nodiscard]] std::optional<double> LatestTime_us(const PointTable& table);
 
 }  // namespace lcmslam

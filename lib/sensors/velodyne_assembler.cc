@@ -12,7 +12,8 @@ namespace {
 
 constexpr int64_t kHour_us = 3'600'000'000;
 constexpr int64_t kLongestSweep_us = 1'000'000;
-constexpr int64_t kLargestDrift_us = 1'000'000;  // of the sensor's clock from one packet to the next
+constexpr int64_t kLargestDrift_us = 1'000'000;   // of the sensor's clock from one packet to the next
+constexpr int64_t kLongestStall_us = 10'000'000;  // of the receiver, while packets wait in the kernel
 
 }  // namespace
 
@@ -56,9 +57,9 @@ int64_t VelodyneAssembler::Unwrap(uint32_t stamp_us, std::optional<int64_t> rece
   int64_t elapsed_us = int64_t{stamp_us} - int64_t{*last_stamp_us};
   if (elapsed_us < -kHour_us / 2) elapsed_us += kHour_us;
   if (!received_utime || !last_received_utime) return packet_utime_ + elapsed_us;
-  const int64_t received_elapsed_us = UtimeDifference(*received_utime, *last_received_utime);
-  const bool was_set = received_elapsed_us !=
-                       std::clamp(received_elapsed_us, elapsed_us - kLargestDrift_us, elapsed_us + kLargestDrift_us);
+  const int64_t received_elapsed_us = std::max<int64_t>(UtimeDifference(*received_utime, *last_received_utime), 0);
+  const bool was_set = elapsed_us > received_elapsed_us + kLargestDrift_us ||
+                       elapsed_us < std::max<int64_t>(received_elapsed_us - kLongestStall_us, 0) - kLargestDrift_us;
   return was_set ? *received_utime : packet_utime_ + elapsed_us;
 }
 

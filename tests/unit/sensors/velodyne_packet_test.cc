@@ -192,6 +192,21 @@ TEST(VelodyneAssembler, AClockThatFindsGpsMovesNoStamps) {
   }
 }
 
+TEST(VelodyneAssembler, AReceiverThatStallsMovesNoStamps) {
+  for (const int64_t stall_us : {9'000'000, -5'000'000}) {  // the second: the receiver's clock steps back
+    SCOPED_TRACE(stall_us);
+    VelodyneAssembler assembler;
+    Stream stream(350.0);
+    const int64_t begin_utime = 50'000'000;
+    int64_t sent_utime = begin_utime;
+    for (int i = 0; i < 200; ++i, sent_utime += 1327) {
+      for (const Sweep& sweep : assembler.Add(stream.Next(), i < 90 ? sent_utime : begin_utime + 90 * 1327 + stall_us))
+        EXPECT_NEAR(static_cast<double>(sweep.utime), static_cast<double>(sent_utime), 3000.0);
+    }
+    EXPECT_NEAR(static_cast<double>(assembler.packet_utime()), static_cast<double>(sent_utime), 3000.0);
+  }
+}
+
 TEST(VelodyneAssembler, LostPacketsLeaveAGap) {
   Stream stream(350.0);
   VelodyneAssembler assembler;
