@@ -49,7 +49,7 @@ void SpatialWay::Advance(double step_m) {
 void SpatialWay::StartLeg() {
   for (int i = 0; i < kMaxTries; ++i) {
     const Vector3d goal = RandomGoal();
-    if (!IsFree(goal)) continue;
+    if (!IsWithinBounds(goal) || !IsFree(goal)) continue;
     goal_ = goal;
     return;
   }
@@ -61,6 +61,11 @@ Vector3d SpatialWay::RandomGoal() {
   const double length_m = Uniform(kMinLeg_m, kMaxLeg_m, rng_);
   const double height_m = Uniform(options_.min_height_m, options_.max_height_m, rng_);
   return {position_.x() + length_m * std::cos(heading_rad), position_.y() + length_m * std::sin(heading_rad), height_m};
+}
+
+bool SpatialWay::IsWithinBounds(const Vector3d& goal) const {
+  const Eigen::AlignedBox3d& bounds = world_.bounds();
+  return Eigen::AlignedBox2d(bounds.min().head<2>(), bounds.max().head<2>()).contains(goal.head<2>());
 }
 
 // Whether the straight leg keeps its clearance: every stride is as long as the free space around it allows.

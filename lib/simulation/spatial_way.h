@@ -13,7 +13,8 @@ struct SpatialWayOptions {
   double clearance_m = 0.3;  // to the nearest surface, never less
 };
 
-// A random way without end through the free space of a world: straight legs between random places.
+// A random way without end through the free space of a world: straight legs between random places. Windows and doors
+// do not lead out: seen from above, it stays within the world's bounds.
 class SpatialWay {
  public:
   // From the world's p_inside over a few legs to a random start. World and rng must outlive it.
@@ -29,6 +30,7 @@ class SpatialWay {
  private:
   void StartLeg();
   Eigen::Vector3d RandomGoal();
+  bool IsWithinBounds(const Eigen::Vector3d& goal) const;
   bool IsFree(const Eigen::Vector3d& goal) const;
 
   const SpatialWorld& world_;

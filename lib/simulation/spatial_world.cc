@@ -170,7 +170,9 @@ void SpatialWorld::Scene::Attach() {
 }
 
 SpatialWorld::SpatialWorld(const std::vector<Solid>& solids, const Vector3d& p_inside)
-    : scene_(std::make_unique<Scene>(solids)), p_inside_(p_inside) {}
+    : scene_(std::make_unique<Scene>(solids)), p_inside_(p_inside) {
+  for (const Vector3d& vertex : scene_->mesh.vertices) bounds_.extend(vertex);
+}
 SpatialWorld::~SpatialWorld() = default;
 SpatialWorld::SpatialWorld(SpatialWorld&&) noexcept = default;
 SpatialWorld& SpatialWorld::operator=(SpatialWorld&&) noexcept = default;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "simulation/triangle_mesh.h"
 
@@ -61,11 +62,13 @@ class SpatialWorld {
   [[nodiscard]] double Distance(const Eigen::Vector3d& p_world, double max_distance_m) const;
 
   const Eigen::Vector3d& p_inside() const { return p_inside_; }
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }  // of all surfaces
 
  private:
   struct Scene;
   std::unique_ptr<Scene> scene_;
   Eigen::Vector3d p_inside_;
+  Eigen::AlignedBox3d bounds_;
 };
 
 }  // namespace lcmslam

@@ -59,6 +59,18 @@ TEST(CarryAround, KeepsItsLimits) {
   }
 }
 
+// The hall's window is wide enough to fly through.
+TEST(CarryAround, StaysInside) {
+  const SpatialWorld world = Hall10World();
+  const Eigen::AlignedBox3d bounds(Vector3d(0.0, 0.0, 0.0), Vector3d(10.3, 8.0, 3.0));  // to the window's outer edge
+  for (const uint64_t seed : {1, 5, 24, 27}) {
+    const SpatialMotion motion = *CarryAround(world, 1800.0, {}, seed);
+    for (double t_s = 0.0; t_s < motion.duration_s(); t_s += 0.5) {
+      ASSERT_TRUE(bounds.contains(motion.PoseAt(t_s).translation)) << "seed " << seed << ", " << t_s << " s";
+    }
+  }
+}
+
 TEST(CarryAround, RestsLevelAndThenMoves) {
   const SpatialWorld world = BareRoomWorld();
   const SpatialMotion motion = *CarryAround(world, 10.0, {.rest_s = 1.5}, 3);
