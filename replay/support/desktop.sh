@@ -33,7 +33,7 @@ open_spy() {
 
 make_driver() {
   mkdir driver
-  javac -d driver "$root/replay/support/SpyDriver.java"
+  javac --release 11 -d driver "$root/replay/support/SpyDriver.java"
   printf 'Premain-Class: SpyDriver\n' >driver/manifest
   jar cfm driver.jar driver/manifest -C driver .
 }

@@ -20,8 +20,7 @@ main() {
   open_desktop
   open_spy spy
   start_sensors
-  tell_spy spy "open SDF2D_MAP map" "open OCTO3D_MAP space" "open SDF2D_SLAM_STATUS health" "open EVALUATION error" "await end"
-  wait_until spy test -e spy/error.png
+  open_views
   printf '%8s %10s %10s\n' minute 'heap (MB)' 'RSS (MB)'
   watch_heap | tee heap.txt
   judge || exit "$exit_threshold"
@@ -36,6 +35,14 @@ start_sensors() {
   wait_until sdf2d-slam says_ready sdf2d-slam
   start_run octo3d-slam hall10_rated_distortion $((60 * minutes)) --speed "$speed"
   start player player.log lcm-logplayer --speed="$speed" --regexp='LIDAR_2D.*' --lcm-url="$lcm_url" planar.lcm
+}
+
+open_views() {
+  tell_spy spy "open SDF2D_MAP map" "open OCTO3D_MAP space" "open SDF2D_SLAM_STATUS health" "open EVALUATION error" "await end"
+  until [[ -e spy/error.png ]]; do
+    is_running spy || die "$(cat spy.log)"
+    sleep 1
+  done
 }
 
 watch_heap() {

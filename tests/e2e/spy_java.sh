@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Our jars hold nothing newer than Java 11 understands, and lcm-spy opens its views on every Java that is installed.
+# Our jars hold nothing newer than Java 11 understands, and lcm-spy opens its views on every Java of the folder
+# LCMSLAM_JVMS, /usr/lib/jvm by default.
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
 . "$root/replay/support/desktop.sh"
@@ -21,7 +22,7 @@ main() {
   claim_bus
   open_desktop
   local java
-  for java in /usr/lib/jvm/*/bin/java; do
+  for java in "${LCMSLAM_JVMS:-/usr/lib/jvm}"/*/bin/java; do
     [[ -L ${java%/bin/java} ]] || check_spy "$java"
   done
   finish_test
