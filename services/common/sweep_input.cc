@@ -1,5 +1,6 @@
 #include "common/sweep_input.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <lcmslam/point_cloud_chunk_t.hpp>
@@ -31,12 +32,11 @@ Handled SweepInput::OfferExtrinsics(const Event& event) {
 }
 
 void SweepInput::Pass(const std::vector<Sweep>& sweeps) {
-  const int64_t missing_chunks = assembler_.missing() - missing_counted_;
-  health_.CountMissing(channel_, missing_chunks);
-  missing_counted_ = assembler_.missing();
+  const int64_t missing_chunks = assembler_.missing() - std::exchange(missing_counted_, assembler_.missing());
+  int64_t skipped_sweeps = 0;
+  for (const Sweep& sweep : sweeps) skipped_sweeps += skipped_.Missing(sweep.utime);
+  health_.CountMissing(channel_, std::max(missing_chunks, skipped_sweeps));  // what both tell of is the same
   for (const Sweep& sweep : sweeps) {
-    const int64_t skipped_sweeps = skipped_.Missing(sweep.utime);
-    if (missing_chunks == 0) health_.CountMissing(channel_, skipped_sweeps);  // else these are the same
     health_.NoteStamp(sweep.utime);
     gate_.Pass(sweep);
   }

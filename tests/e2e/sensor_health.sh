@@ -16,9 +16,10 @@ main() {
   wait_until bridge says_ready bridge
   sensor_port=$(sed -n 's/.*hears UDP port //p' bridge.log)
 
-  send_payloads 0 400
+  send_payloads 0 1000 # lasts longer than from one status to the next
   check "well while packets come" hear sensor-bridge any 'state != "WAITING" && processed > 0 && missing == 0'
   check "starved, and for how long" tells sensor-bridge "$sent" WAITING 'text ~ /no input for [0-9.]+ s/'
+  send_payloads 0 400
   send_payloads 500 1000
   check "skipped: how many, and where" tells sensor-bridge "$begun" any 'missing >= 99 && text ~ /missing on LIDAR_3D_PACKET/'
   hold_up
@@ -37,13 +38,14 @@ main() {
 
 now() { date +%s.%N; }
 
-# send_payloads FROM TO: dd writes a block, which is a datagram, at a time. `begun` and `sent`: from when to when.
+# send_payloads FROM TO: near their own pace. dd writes a block, which is a datagram, at a time. `begun` and `sent`: from when to
+# when.
 send_payloads() {
   local next
   begun=$(now)
   for ((next = $1; next < $2; next += batch)); do
     send_batch "$next"
-    sleep 0.02 # near their own pace
+    sleep 0.027
     wait_until bridge all_is_read
   done
   sent=$(now)

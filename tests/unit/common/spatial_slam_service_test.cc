@@ -135,6 +135,16 @@ TEST_F(SpatialSlamServiceTest, SweepsThatTheLidarSkippedAreCounted) {
   EXPECT_EQ(missing_, 3);
 }
 
+// A sender that starts anew numbers its sweeps anew: only the stamps tell what was lost in between.
+TEST_F(SpatialSlamServiceTest, SweepsLostBeforeTheSenderBeganAnewAreCounted) {
+  for (const int64_t period : {0, 1, 2, 3, 4, 5, 6}) WriteSweep(1000 + 100'000 * period, 2400);
+  sweep_number_ = 0;
+  WriteSweep(2'601'000, 2400, 1);
+  WriteSweep(2'701'000, 2400);
+  EXPECT_EQ(RunAndRead("FAKE_POSE").size(), 9U);
+  EXPECT_EQ(missing_, 19);
+}
+
 TEST_F(SpatialSlamServiceTest, TheLastSweepNeedNotBeWhole) {
   WriteSweep(1000, 6000, 1);
   EXPECT_EQ(RunAndRead("FAKE_POSE").size(), 1U);
