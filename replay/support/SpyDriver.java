@@ -6,10 +6,10 @@ import java.awt.Rectangle;
 import java.awt.Robot;
 import java.awt.event.InputEvent;
 import java.io.File;
-import java.io.PrintWriter;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.nio.file.Paths;
+import java.util.ArrayList;
 import java.util.List;
 import java.util.function.Supplier;
 import javax.imageio.ImageIO;
@@ -77,12 +77,30 @@ public final class SpyDriver {
   }
 
   private void write(JTable table) throws Exception {
-    try (PrintWriter out = new PrintWriter(folder.resolve("channels.tsv").toFile())) {
-      for (int row = 0; row < table.getRowCount(); ++row) {
-        StringBuilder line = new StringBuilder();
-        for (int column = 0; column < table.getColumnCount(); ++column) line.append(column > 0 ? "\t" : "").append(table.getValueAt(row, column));
-        out.println(line);
+    Files.write(folder.resolve("channels.tsv"), await("the channel list", () -> linesOf(table)));
+  }
+
+  /** Null: it is just being changed. */
+  private static List<String> linesOf(JTable table) {
+    List<String> lines = new ArrayList<>();
+    for (int row = 0; row < table.getRowCount(); ++row) {
+      StringBuilder line = new StringBuilder();
+      for (int column = 0; column < table.getColumnCount(); ++column) {
+        Object cell = cell(table, row, column);
+        if (cell == null) return null;
+        line.append(column > 0 ? "\t" : "").append(cell);
       }
+      lines.add(line.toString());
+    }
+    return lines;
+  }
+
+  /** Null: not there any more. lcm-spy changes its list while Swing shows it. */
+  private static Object cell(JTable table, int row, int column) {
+    try {
+      return table.getValueAt(row, column);
+    } catch (IndexOutOfBoundsException changed) {
+      return null;
     }
   }
 
@@ -129,7 +147,7 @@ public final class SpyDriver {
 
   private static Integer rowOf(JTable table, String channel) {
     for (int row = 0; row < table.getRowCount(); ++row) {
-      if (channel.equals(String.valueOf(table.getValueAt(row, 0)))) return row;
+      if (channel.equals(cell(table, row, 0))) return row;
     }
     return null;
   }
