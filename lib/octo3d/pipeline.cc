@@ -20,7 +20,9 @@ constexpr double kMapPoseM = 1e-4, kMapPoseRad = 1e-4;  // the first pose define
 constexpr double kLongestWalkS = 10.0;                  // beyond, more silence makes nothing worse
 constexpr double kStartMotionM = 0.02;                  // of points during the first sweep
 constexpr int kStartRounds = 4;
-constexpr size_t kYoungSweeps = 10;  // a map of fewer gains by every sweep, at rest too
+constexpr double kRestChi2 = 22.5;                         // one in a thousand, of six degrees of freedom
+constexpr double kRestSpeedMps = 0.01, kRestRadps = 0.01;  // of a lidar that begins at rest
+constexpr size_t kYoungSweeps = 10;                        // a map of fewer gains by every sweep, at rest too
 
 // Pose known to within pose_m and pose_rad; of the velocity only the size is known.
 StateBelief AtRest(const Pose3& T_map_body, double pose_m, double pose_rad, const TrustOptions& trust) {
@@ -56,6 +58,12 @@ double MotionOfPoints(const MotionState& state, double duration_s) {
   return duration_s * (state.velocity.norm() + kLeverM * state.angular_velocity.norm());
 }
 
+// Whether motion would show, and what shows means nothing beside its uncertainty.
+bool IsAtRest(const MotionState& before, const RegistrationResult& registration) {
+  const Vector12 motion = Difference(registration.belief.mean, before);
+  return registration.unobservable.cols() == 0 && motion.dot(registration.belief.information * motion) < kRestChi2;
+}
+
 // Nothing moves on for ever unseen.
 void Slow(MotionState& state) {
   state.velocity *= 0.5;
@@ -80,7 +88,7 @@ Result Pipeline::Process(const Sweep& dense_sweep, const MotionHint& hint) {
   bool searched = false;
   bool began_anew = false;
   RegistrationResult registration = RegisterFromAnywhere(timed, ToRelativeMotion(hint), searched);
-  if (first_) registration = StartInMotion(timed, ToRelativeMotion(hint), registration, began_anew);
+  if (first_) registration = ReconsiderStart(timed, ToRelativeMotion(hint), registration, began_anew);
   Charge(Stage::kRegister);
 
   const bool good = IsGood(registration);
@@ -146,16 +154,22 @@ RegistrationResult Pipeline::RegisterFromAnywhere(const TimedPatches& patches, c
   return best;
 }
 
-// The first sweep went into the map as if at rest. When the second says that the lidar was moving, the map begins anew
-// with that motion, unless this fits worse.
-RegistrationResult Pipeline::StartInMotion(const TimedPatches& patches, const RelativeMotion& hint,
-                                           const RegistrationResult& from_rest, bool& began_anew) {
+// The first sweep went into the map as if at rest. When the second agrees, it is registered as at rest too: with any
+// velocity possible, what two sweeps differ in by chance would be taken for motion. When it says that the lidar was
+// moving, the map begins anew with that motion, unless this fits worse.
+RegistrationResult Pipeline::ReconsiderStart(const TimedPatches& patches, const RelativeMotion& hint,
+                                             const RegistrationResult& from_rest, bool& began_anew) {
   const Sweep first = *std::exchange(first_, std::nullopt);
   const double first_s = SweepDuration(first);
-  if (options_.localize_only || patches.duration_s >= options_.trust.max_gap_s ||
-      MotionOfPoints(Corrected(belief_.mean, from_rest.motion), first_s) < kStartMotionM) {
-    return from_rest;
+  if (options_.localize_only || patches.duration_s >= options_.trust.max_gap_s) return from_rest;
+  if (IsGood(from_rest) && IsAtRest(belief_.mean, from_rest)) {
+    TrustOptions rest = options_.trust;
+    rest.initial_speed_mps = std::min(rest.initial_speed_mps, kRestSpeedMps);
+    rest.initial_rate_radps = std::min(rest.initial_rate_radps, kRestRadps);
+    belief_ = AtRest(belief_.mean.T_map_body, kMapPoseM, kMapPoseRad, rest);
+    return Register(map_, patches, belief_, hint, from_rest.motion, options_.registration);
   }
+  if (MotionOfPoints(Corrected(belief_.mean, from_rest.motion), first_s) < kStartMotionM) return from_rest;
   const StateBelief at_rest = belief_;
   const auto begin = [&](const MotionState& end) {
     belief_.mean = end;

@@ -83,8 +83,8 @@ class Pipeline {
   Result Start(const Sweep& sweep, const std::vector<Patch>& patches);
   double BridgeTimeTo(const Sweep& sweep);
   RegistrationResult RegisterFromAnywhere(const TimedPatches& patches, const RelativeMotion& hint, bool& searched);
-  RegistrationResult StartInMotion(const TimedPatches& patches, const RelativeMotion& hint,
-                                   const RegistrationResult& from_rest, bool& began_anew);
+  RegistrationResult ReconsiderStart(const TimedPatches& patches, const RelativeMotion& hint,
+                                     const RegistrationResult& from_rest, bool& began_anew);
   bool IsGood(const RegistrationResult& registration) const;
   bool MovedEnough() const;
   bool Insert(const Sweep& sweep, const MotionSegment& motion);

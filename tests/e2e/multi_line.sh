@@ -2,7 +2,7 @@
 # Real multi-line sensors through import, octo3d-slam and evaluator, all by default.
 set -euo pipefail
 . "$(dirname "$0")/../support/script.sh"
-need_data hilti2021_uzh_run2 kitti_raw_0005 packets/einride_vlp16.bin
+need_data hilti2021_uzh_run2 kitti_raw_0005 packets/einride_vlp16.bin packets/vlp16_gps.pcap
 
 main() {
   hand_held_in_a_hall
@@ -39,9 +39,15 @@ goes_ahead() { awk 'NR > 1 && !($2 > x + 0.1 && $2 < x + 0.6) { exit 1 } { x = $
 stays_on_the_ground() { awk '$4 > 0.1 || $4 < -0.1 { exit 1 }' kitti/octo3d-slam_tum.txt; }
 
 sensor_at_rest() {
-  track rest velodyne "$data/packets/einride_vlp16.bin"
-  check "VLP-16 at rest: poses" test "$(wc -l <rest/octo3d-slam_tum.txt)" -ge 10
-  check "VLP-16 at rest: drift" at_most "$(largest_distance)" 0.004
+  stays_where_it_began einride_vlp16.bin 10
+  stays_where_it_began vlp16_gps.pcap 3
+}
+
+# stays_where_it_began FILE SWEEPS
+stays_where_it_began() {
+  track rest velodyne "$data/packets/$1"
+  check "$1 at rest: poses" test "$(wc -l <rest/octo3d-slam_tum.txt)" -ge "$2"
+  check "$1 at rest: drift" at_most "$(largest_distance)" 0.003
 }
 
 largest_distance() { awk '{ d = sqrt($2^2 + $3^2 + $4^2) } d > worst { worst = d } END { print worst }' rest/octo3d-slam_tum.txt; }

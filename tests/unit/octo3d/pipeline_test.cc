@@ -40,6 +40,16 @@ TEST(Pipeline, TracksAMovingLidar) {
   EXPECT_LT(WorstError(Episode("hall10", 4.0), pipeline), 0.04);
 }
 
+// Sweeps of a lidar at rest differ by their noise: that is no motion.
+TEST(Pipeline, StaysWhereItBeganAtRest) {
+  double sum_m = 0.0;
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    Pipeline pipeline{Options{}};
+    sum_m += WorstError(Episode("hall10", 0.2, true, seed), pipeline);
+  }
+  EXPECT_LT(sum_m / 5.0, 0.0015);
+}
+
 // The first sweep alone does not tell that it is smeared over the way the lidar went meanwhile.
 TEST(Pipeline, BeginsAnewWhenTheFirstSweepWasInMotion) {
   SpatialEpisodeOptions options;
