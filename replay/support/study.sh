@@ -9,8 +9,8 @@
 #                                               RELATIONS: file to judge it by, or - for its ground truth; arguments go to
 #                                               every service
 #   system NAME SERVICE [ARGUMENT...]           a set-up of a service; the first one is compared with the others
-#   bench NAME PROGRAM FILTER                   times from PROGRAM --benchmark_filter=FILTER over the size that they stand for,
-#                                               as NAME.csv and NAME.svg
+#   bench NAME PROGRAM FILTER SIZE              times from PROGRAM --benchmark_filter=FILTER over their first argument, which
+#                                               SIZE describes, as NAME.csv and NAME.svg, and on the page
 #
 # Groups are summed up one by one. Arguments are those of the service's command line, at the root of the project.
 # shellcheck shell=bash

@@ -11,6 +11,8 @@ main() {
   done
   in_a_room
   in_a_hall
+  check "one page of both" test "$(grep -cE '^<h2>[0-9-]+-(demo|hall10_rated_distortion)</h2>' out/report.html)" = 2
+  check "no run failed for what it did not try" test -z "$(grep 'no result' out/report_files/*_episodes.csv)"
   finish_test
 }
 

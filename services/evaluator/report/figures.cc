@@ -249,14 +249,14 @@ Figure ErrorOverTime(const std::string& name, const std::string& caption, const 
   return {name, caption, fmt::to_string(text) + plot.Command()};
 }
 
-Figure TimingPlot(const std::string& name, const std::string& caption, const Study& study, const Group& group) {
+Figure TimingPlot(const std::string& name, const std::string& caption, const Group& group) {
   Text text;
   Plot plot;
   std::string tics;
-  for (size_t i = 0; i < study.systems.size(); ++i) {
+  for (size_t i = 0; i < group.systems.size(); ++i) {
     std::vector<double> medians, p95s, maxima, latency_p50s, latency_p99s;
     for (const Episode& episode : group.episodes) {
-      const auto& timing = episode.runs.at(study.systems[i]).metrics.timing();
+      const auto& timing = episode.runs.at(group.systems[i]).metrics.timing();
       if (timing.has_latency_p50_ms()) {
         latency_p50s.push_back(timing.latency_p50_ms());
         latency_p99s.push_back(timing.latency_p99_ms());
@@ -266,7 +266,7 @@ Figure TimingPlot(const std::string& name, const std::string& caption, const Stu
       p95s.push_back(timing.step_ms().p95());
       maxima.push_back(timing.step_ms().max());
     }
-    tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", GnuplotString(study.systems[i]), i + 1);
+    tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", GnuplotString(group.systems[i]), i + 1);
     if (!latency_p50s.empty()) {
       Print(text, "$latency{} << EOD\n{} {:.4g} {:.4g}\nEOD\n", i, static_cast<double>(i) + 1.25,
             Percentile(latency_p50s, 0.5), *std::ranges::max_element(latency_p99s));
@@ -285,7 +285,7 @@ Figure TimingPlot(const std::string& name, const std::string& caption, const Stu
   Print(text,
         "set tmargin 1\nset logscale y\nset xtics ({}) noenhanced scale 0{}\nset xrange [0.4:{}]\nset ylabel \"time of "
         "a scan [ms]\"\n",
-        tics, SlantIfLong(study.systems), static_cast<double>(study.systems.size()) + 0.6);
+        tics, SlantIfLong(group.systems), static_cast<double>(group.systems.size()) + 0.6);
   figure.script = fmt::to_string(text) + plot.Command();
   return figure;
 }

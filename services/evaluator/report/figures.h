@@ -25,6 +25,6 @@ Figure TrajectoryPlot(const std::string& name, const std::string& caption, const
 Figure ErrorOverTime(const std::string& name, const std::string& caption, const std::vector<std::string>& systems,
                      const EpisodeCurves& curves);
 // Median, p95 and largest time of a scan over all episodes of the group that know it. No script when none does.
-Figure TimingPlot(const std::string& name, const std::string& caption, const Study& study, const Group& group);
+Figure TimingPlot(const std::string& name, const std::string& caption, const Group& group);
 
 }  // namespace lcmslam::report

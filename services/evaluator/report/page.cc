@@ -129,11 +129,24 @@ std::string ConfigurationsHtml(const Study& study) {
   return html;
 }
 
-Table InputsTable(const Study& study) {
+// Each in an image of its own: identifiers of several drawings may be the same.
+std::string PicturesHtml(const std::vector<fs::path>& pictures) {
+  if (pictures.empty()) return "";
+  std::string html = "<h2>Measured beside</h2>\n<div class=\"figures\">\n";
+  for (const fs::path& picture : pictures) {
+    html += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        EscapeHtml(picture.stem().string()), Base64(ReadFile(picture)));
+  }
+  return html + "</div>\n";
+}
+
+Table InputsTable(const Study& study, const std::vector<fs::path>& pictures) {
   Table table{"inputs", "SHA-256 of every file that went into this page.", {"file", "SHA-256"}, {}, 2};
   const auto add = [&](const fs::path& file) {
     if (!file.empty()) table.rows.push_back({file.string(), Sha256(ReadFile(file))});
   };
+  for (const fs::path& picture : pictures) add(picture);
   for (const Group& group : study.groups) {
     for (const Episode& episode : group.episodes) {
       add(episode.reference);
@@ -168,7 +181,7 @@ void WritePage(const Study& study, const PageOptions& options) {
   std::vector<Figure> figures;
   for (size_t i = 0; i < study.groups.size(); ++i) {
     const std::string name = fmt::format("group{}", i + 1);
-    sections.push_back(MakeSection(study, study.groups[i], name));
+    sections.push_back(MakeSection(study.groups[i], name));
     const Section& section = sections.back();
     WriteTables(name, section, folder);
     figures.insert(figures.end(), section.figures.begin(), section.figures.end());
@@ -189,9 +202,10 @@ void WritePage(const Study& study, const PageOptions& options) {
     if (study.groups.size() > 1) html += ToHtml(table);
   }
   for (const Section& section : sections) html += SectionHtml(section, svgs);
+  html += PicturesHtml(options.pictures);
   html += MethodHtml(study, options);
   html += ConfigurationsHtml(study);
-  const Table inputs = InputsTable(study);
+  const Table inputs = InputsTable(study, options.pictures);
   WriteFile(folder / "inputs.csv", ToCsv(inputs));
   html += "<h2>Inputs</h2>\n<details class=\"hash\"><summary>Files and their SHA-256</summary>" + ToHtml(inputs) +
           "</details>\n</body>\n</html>\n";

@@ -86,14 +86,14 @@ double WallThicknessM(const Run& run) {
 
 }  // namespace
 
-Table MotionTable(const Study& study, const Group& group) {
+Table MotionTable(const Group& group) {
   Table table{"motion",
               "Relative errors: of the motion over each step of time or way, mean over the poses of an episode, median "
               "over episodes. KITTI's percentage (segments of 100 to 800 m) is a tenth of the mm over 1 m.",
               {"system", "over", "translation [mm]", "rotation [mrad]", "rotation [deg]"},
               {},
               2};
-  for (const std::string& system : study.systems) {
+  for (const std::string& system : group.systems) {
     for (const Motion& motion : MotionsOf(group)) {
       const double translation_m = MedianOver(group, system, motion.translation_m);
       const double rotation_rad = MedianOver(group, system, motion.rotation_rad);
@@ -105,7 +105,7 @@ Table MotionTable(const Study& study, const Group& group) {
   return table;
 }
 
-Table MapTable(const Study& study, const Group& group) {
+Table MapTable(const Group& group) {
   constexpr double kWithin_m[] = {0.02, 0.05, 0.10};
   Table table{
       "maps",
@@ -115,7 +115,7 @@ Table MapTable(const Study& study, const Group& group) {
       {"system", "surface mean [mm]", "surface p95 [mm]", "complete 2 cm [%]", "5 cm [%]", "10 cm [%]", "wall [mm]"},
       {},
       1};
-  for (const std::string& system : study.systems) {
+  for (const std::string& system : group.systems) {
     const auto median = [&](const std::function<double(const Run&)>& value) {
       return MedianOver(group, system, value);
     };

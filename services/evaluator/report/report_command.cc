@@ -14,7 +14,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::filesystem::path> folders;
-  PageOptions page{.title = "", .note = "", .command = "", .file = "report.html"};
+  PageOptions page{.title = "", .note = "", .command = "", .pictures = {}, .file = "report.html"};
   FailureRule failure;
 };
 
@@ -34,6 +34,8 @@ void AddReportCommand(CLI::App& app, const std::string& typed, std::function<Exi
   report.add_option("--out", arguments->page.file, "the page; pictures and tables go to a folder beside it");
   report.add_option("--title", arguments->page.title, "heading of the page");
   report.add_option("--note", arguments->page.note, "a sentence below the heading");
+  report.add_option("--picture", arguments->page.pictures, "an SVG drawing that the page shows too (repeatable)")
+      ->allow_extra_args(false);
   report.add_option("--failure", arguments->failure.max_mean_m, "m: an episode with a larger mean error failed");
   report.add_option("--failure-coverage", arguments->failure.min_coverage, "0 to 1: so does one with less coverage");
   report.callback([arguments, typed, &command] {

@@ -27,6 +27,6 @@ struct Section {
 };
 
 // `name` starts the names of all files of the section.
-Section MakeSection(const Study& study, const Group& group, const std::string& name);
+Section MakeSection(const Group& group, const std::string& name);
 
 }  // namespace lcmslam::report

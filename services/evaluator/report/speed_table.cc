@@ -37,14 +37,14 @@ void AddRow(const std::string& system, const std::string& stage, const StageSamp
 
 }  // namespace
 
-Table SpeedTable(const Study& study, const Group& group) {
+Table SpeedTable(const Group& group) {
   Table table{"speed",
               "Time of a scan and of its stages, wall clock, and how many fit into a second of it; iterations of a "
               "registration, and how many it does in a second of its own time. Medians over episodes.",
               {"system", "stage", "median [ms]", "p95 [ms]", "1/s", "iterations", "iterations/s"},
               {},
               2};
-  for (const std::string& system : study.systems) {
+  for (const std::string& system : group.systems) {
     StageSamples scan;
     std::map<std::string, StageSamples> stages;
     for (const Episode& episode : group.episodes) {

@@ -7,6 +7,6 @@ namespace lcmslam::report {
 
 // Time of a scan and of its stages over many episodes, and how fast the registration iterates. No rows where no episode
 // knows.
-Table SpeedTable(const Study& study, const Group& group);
+Table SpeedTable(const Group& group);
 
 }  // namespace lcmslam::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -85,7 +86,7 @@ std::string NameOf(const fs::path& folder) {
 }
 
 std::vector<Group> ReadGroups(const std::vector<fs::path>& folders) {
-  Group singles{.name = folders.size() == 1 ? "Run" : "Runs", .episodes = {}};
+  Group singles{.name = folders.size() == 1 ? "Run" : "Runs", .systems = {}, .episodes = {}};
   std::vector<Group> groups;
   for (const fs::path& folder : folders) {
     Episode single = ReadEpisode(folder, NameOf(folder));
@@ -93,7 +94,7 @@ std::vector<Group> ReadGroups(const std::vector<fs::path>& folders) {
       singles.episodes.push_back(std::move(single));
       continue;
     }
-    Group group{.name = NameOf(folder), .episodes = {}};
+    Group group{.name = NameOf(folder), .systems = {}, .episodes = {}};
     CollectEpisodes(folder, "", group.episodes);
     if (group.episodes.empty()) FailInput(fmt::format("{}: no *{} in it or below", folder.string(), kMetricsSuffix));
     groups.push_back(std::move(group));
@@ -103,18 +104,44 @@ std::vector<Group> ReadGroups(const std::vector<fs::path>& folders) {
 }
 
 // Our systems first, each before its baseline.
-std::vector<std::string> OrderedSystems(const std::vector<Group>& groups) {
+std::vector<std::string> Ordered(const std::set<std::string>& systems) {
   constexpr std::array<std::string_view, 4> kFirst = {"sdf2d-slam", "occupancy2d-slam", "octo3d-slam", "cloud3d-slam"};
-  std::set<std::string> all;
-  for (const Group& group : groups) {
-    for (const Episode& episode : group.episodes) {
-      for (const auto& [system, run] : episode.runs) all.insert(system);
-    }
-  }
-  std::vector<std::string> ordered(all.begin(), all.end());
+  std::vector<std::string> ordered(systems.begin(), systems.end());
   std::ranges::stable_sort(
       ordered, {}, [&](const std::string& system) { return std::ranges::find(kFirst, system) - kFirst.begin(); });
   return ordered;
+}
+
+std::set<std::string> SystemsOf(const Episode& episode) {
+  std::set<std::string> systems;
+  for (const auto& [system, run] : episode.runs) systems.insert(system);
+  return systems;
+}
+
+// The systems that met in an episode, or met the same others.
+std::vector<std::set<std::string>> Met(const std::vector<Episode>& episodes) {
+  std::vector<std::set<std::string>> met;
+  for (const Episode& episode : episodes) {
+    std::set<std::string> systems = SystemsOf(episode);
+    std::erase_if(met, [&](const std::set<std::string>& others) {
+      const bool meet = std::ranges::any_of(others, [&](const std::string& other) { return systems.contains(other); });
+      if (meet) systems.insert(others.begin(), others.end());
+      return meet;
+    });
+    met.push_back(std::move(systems));
+  }
+  return met;
+}
+
+void AddSplit(const Group& group, std::vector<Group>& groups) {
+  const std::vector<std::set<std::string>> all = Met(group.episodes);
+  for (const std::set<std::string>& met : all) {
+    Group part{.name = group.name, .systems = Ordered(met), .episodes = {}};
+    if (all.size() > 1) part.name += fmt::format(": {}", fmt::join(part.systems, ", "));
+    std::ranges::copy_if(group.episodes, std::back_inserter(part.episodes),
+                         [&](const Episode& episode) { return met.contains(episode.runs.begin()->first); });
+    groups.push_back(std::move(part));
+  }
 }
 
 std::string WhyFailed(const Run& run, const FailureRule& rule) {
@@ -149,13 +176,15 @@ std::string FailureRule::Validate() const {
 Study LoadStudy(const std::vector<fs::path>& folders, const FailureRule& rule) {
   Study study;
   study.failure_rule = rule;
-  study.groups = ReadGroups(folders);
-  study.systems = OrderedSystems(study.groups);
+  for (const Group& group : ReadGroups(folders)) AddSplit(group, study.groups);
+  std::set<std::string> systems;
   for (Group& group : study.groups) {
+    systems.insert(group.systems.begin(), group.systems.end());
     for (Episode& episode : group.episodes) {
-      for (const std::string& system : study.systems) CompleteRun(episode, system, rule, episode.runs[system]);
+      for (const std::string& system : group.systems) CompleteRun(episode, system, rule, episode.runs[system]);
     }
   }
+  study.systems = Ordered(systems);
   return study;
 }
 

@@ -32,24 +32,26 @@ struct Episode {
   std::filesystem::path reference;  // trajectory
   std::filesystem::path bound_file;
   Bound bound;                      // NaN where there is no file
-  std::map<std::string, Run> runs;  // by system, all systems of the study
+  std::map<std::string, Run> runs;  // by system, all systems of its group
 };
 
 // Episodes that are summed up together.
 struct Group {
   std::string name;
+  std::vector<std::string> systems;  // in the order in which they are shown
   std::vector<Episode> episodes;
 };
 
 struct Study {
-  std::vector<std::string> systems;  // in the order in which they are shown
+  std::vector<std::string> systems;  // of all groups, in the order in which they are shown
   std::vector<Group> groups;
   FailureRule failure_rule;
 };
 
 // A folder is an episode when it holds SYSTEM_metrics.json files; else a group of all episodes below it. Folders that
-// are episodes themselves form one group. Throws CommandError: kBadInput for folders without episodes and damaged
-// metrics.
+// are episodes themselves form one group. A group is split where episodes have no system in common, nor others in
+// between: nothing compares them. A system that is missing from an episode of its group failed there. Throws
+// CommandError: kBadInput for folders without episodes and damaged metrics.
 Study LoadStudy(const std::vector<std::filesystem::path>& folders, const FailureRule& rule);
 
 // Mean translation error, m: absolute, or of the relations where there is no reference. Infinite when failed.

@@ -30,12 +30,12 @@ void AddRatioRow(Table& table, const std::string& system, const std::string& oth
 
 }  // namespace
 
-std::vector<Comparison> CompareSystems(const Study& study, const Group& group) {
+std::vector<Comparison> CompareSystems(const Group& group) {
   std::vector<Comparison> comparisons;
   if (group.episodes.size() < 2) return comparisons;
-  const std::string& system = study.systems.front();
-  for (size_t i = 1; i < study.systems.size(); ++i) {
-    const std::string& other = study.systems[i];
+  const std::string& system = group.systems.front();
+  for (size_t i = 1; i < group.systems.size(); ++i) {
+    const std::string& other = group.systems[i];
     comparisons.push_back({system, other, "translation", "mm",
                            ComparePaired(TranslationErrors(group, system), TranslationErrors(group, other))});
     comparisons.push_back({system, other, "rotation", "mrad",
@@ -48,7 +48,7 @@ std::vector<Comparison> CompareSystems(const Study& study, const Group& group) {
   return comparisons;
 }
 
-Table SystemsTable(const Study& study, const Group& group) {
+Table SystemsTable(const Group& group) {
   Table table;
   table.name = "systems";
   table.caption = fmt::format(
@@ -56,14 +56,16 @@ Table SystemsTable(const Study& study, const Group& group) {
       "median, p95 and max failed ones rank worst. RMSE / bound: RMSE of an episode over the root mean square of its "
       "scans' Cramer-Rao bounds, median over episodes. Times: of a scan, wall clock, median over episodes.",
       group.episodes.size());
-  table.header = {"system",      "completed",  "mean [mm]",    "median [mm]",  "SD [mm]",     "p95 [mm]", "max [mm]",
-                  "rot. [mrad]", "rot. [deg]", "coverage [%]", "RMSE / bound", "median [ms]", "p95 [ms]", "p99 [ms]"};
-  for (const std::string& system : study.systems) {
+  table.header = {"system",       "completed",    "mean [mm]",   "median [mm]", "SD [mm]",
+                  "p95 [mm]",     "max [mm]",     "rot. [mrad]", "rot. [deg]",  "rot. SD [mrad]",
+                  "coverage [%]", "RMSE / bound", "median [ms]", "p95 [ms]",    "p99 [ms]"};
+  for (const std::string& system : group.systems) {
     const EpisodeSummary s = SummarizeEpisodes(TranslationErrors(group, system));
     const EpisodeSummary r = SummarizeEpisodes(RotationErrors(group, system));
     table.rows.push_back({system, fmt::format("{} of {}", s.completed, s.episodes), Millimetres(s.mean),
                           Millimetres(s.median), Millimetres(s.sd), Millimetres(s.p95), Millimetres(s.max),
-                          Milliradians(r.mean), Degrees(r.mean), Percent(MedianCoverage(group, system)),
+                          Milliradians(r.mean), Degrees(r.mean), Milliradians(r.sd),
+                          Percent(MedianCoverage(group, system)),
                           Number(MedianOverBound(group, system, &result::Summary::rmse, &Bound::rms_m)),
                           Number(MedianStepMs(group, system, &result::Summary::median)),
                           Number(MedianStepMs(group, system, &result::Summary::p95)),
@@ -72,16 +74,16 @@ Table SystemsTable(const Study& study, const Group& group) {
   return table;
 }
 
-Table RatioTable(const Study& study, const Group& group) {
+Table RatioTable(const Group& group) {
   Table table;
   table.name = "ratios";
   table.caption = "Mean error of episodes: a, b, b/a and 1 - a/b. Mean and SD over completed episodes.";
   table.header = {"", "a", "b", "a [mm]", "b [mm]", "b/a", "1 - a/b [%]"};
   table.text_columns = 3;
-  const std::string& system = study.systems.front();
+  const std::string& system = group.systems.front();
   const EpisodeSummary a = SummarizeEpisodes(TranslationErrors(group, system));
-  for (size_t i = 1; i < study.systems.size(); ++i) {
-    const std::string& other = study.systems[i];
+  for (size_t i = 1; i < group.systems.size(); ++i) {
+    const std::string& other = group.systems[i];
     const EpisodeSummary b = SummarizeEpisodes(TranslationErrors(group, other));
     AddRatioRow(table, system, other, "mean", a.mean, b.mean);
     AddRatioRow(table, system, other, "median", a.median, b.median);
@@ -110,7 +112,7 @@ Table ComparisonTable(const std::vector<Comparison>& comparisons) {
   return table;
 }
 
-Table EpisodesTable(const Study& study, const Group& group) {
+Table EpisodesTable(const Group& group) {
   Table table;
   table.name = "episodes";
   table.caption = "Every episode: errors over its poses.";
@@ -118,7 +120,7 @@ Table EpisodesTable(const Study& study, const Group& group) {
                   "max [mm]", "rot. [mrad]", "coverage [%]", "alignment", "failure"};
   table.text_columns = 2;
   for (const Episode& episode : group.episodes) {
-    for (const std::string& system : study.systems) {
+    for (const std::string& system : group.systems) {
       const Run& run = episode.runs.at(system);
       if (!run.has_metrics) {
         table.rows.push_back({episode.name, system, "-", "-", "-", "-", "-", "-", "-", run.failure});
@@ -134,7 +136,7 @@ Table EpisodesTable(const Study& study, const Group& group) {
   return table;
 }
 
-Table PoseErrorTable(const Study& study, const Episode& episode) {
+Table PoseErrorTable(const Group& group, const Episode& episode) {
   Table table;
   table.name = "errors";
   table.caption =
@@ -144,7 +146,7 @@ Table PoseErrorTable(const Study& study, const Episode& episode) {
   table.header = {"system",   "error",    "mean [mm]",   "RMSE [mm]",  "median [mm]",     "SD [mm]",
                   "p95 [mm]", "max [mm]", "rot. [mrad]", "rot. [deg]", "rot. max [mrad]", "n"};
   table.text_columns = 2;
-  for (const std::string& system : study.systems) {
+  for (const std::string& system : group.systems) {
     const result::Evaluation& m = episode.runs.at(system).metrics;
     if (m.has_absolute()) AddErrorRow(table, system, "absolute", m.absolute());
     for (const auto& relative : m.relative()) {
@@ -165,7 +167,7 @@ Table PoseErrorTable(const Study& study, const Episode& episode) {
   return table;
 }
 
-Table TimingTable(const Study& study, const Episode& episode) {
+Table TimingTable(const Group& group, const Episode& episode) {
   Table table;
   table.name = "timing";
   table.caption = "Time of a scan, wall clock, and of its stages.";
@@ -175,7 +177,7 @@ Table TimingTable(const Study& study, const Episode& episode) {
     table.rows.push_back({system, stage, Number(s.mean()), Number(s.median()), Number(s.p95()), Number(s.p99()),
                           Number(s.max()), std::to_string(s.count())});
   };
-  for (const std::string& system : study.systems) {
+  for (const std::string& system : group.systems) {
     const result::Timing& timing = episode.runs.at(system).metrics.timing();
     if (timing.has_step_ms()) add(system, "whole scan", timing.step_ms());
     for (const auto& stage : timing.stages()) add(system, stage.name(), stage.ms());
@@ -187,9 +189,9 @@ Table TimingTable(const Study& study, const Episode& episode) {
   return table;
 }
 
-std::vector<std::string> Verdicts(const Study& study, const Group& group, const std::vector<Comparison>& comparisons) {
+std::vector<std::string> Verdicts(const Group& group, const std::vector<Comparison>& comparisons) {
   std::vector<std::string> verdicts;
-  const EpisodeSummary first = SummarizeEpisodes(TranslationErrors(group, study.systems.front()));
+  const EpisodeSummary first = SummarizeEpisodes(TranslationErrors(group, group.systems.front()));
   for (const Comparison& c : comparisons) {
     if (c.error != "translation") continue;
     const EpisodeSummary other = SummarizeEpisodes(TranslationErrors(group, c.other));
@@ -203,7 +205,7 @@ std::vector<std::string> Verdicts(const Study& study, const Group& group, const 
                     Shift(1e3 * p.shift_interval.low), Shift(1e3 * p.shift_interval.high), PValue(c.holm_p)));
   }
   if (!comparisons.empty()) return verdicts;
-  for (const std::string& system : study.systems) {
+  for (const std::string& system : group.systems) {
     const EpisodeSummary s = SummarizeEpisodes(TranslationErrors(group, system));
     verdicts.push_back(fmt::format("{}: mean error {} mm.", system, Millimetres(s.median)));
   }

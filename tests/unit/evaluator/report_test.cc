@@ -109,13 +109,33 @@ TEST_F(Report, FailuresAreNeverDropped) {
   EXPECT_EQ(b.episodes, 4);
   EXPECT_EQ(b.median, kInfinity);
   EXPECT_NEAR(b.mean, 0.02, 1e-9);
-  const Table episodes = EpisodesTable(study, group);
+  const Table episodes = EpisodesTable(group);
   std::vector<std::string> failures;
   for (const auto& row : episodes.rows) failures.push_back(row.back());
   EXPECT_THAT(failures, ElementsAre("", "no result", "", "", "", "mean error 0.700 m", "", "coverage 50.0 %"));
-  const auto comparisons = CompareSystems(study, group);
+  const auto comparisons = CompareSystems(group);
   ASSERT_EQ(comparisons.size(), 2u);
   EXPECT_EQ(comparisons[0].paired.wins_a, 4);
+}
+
+// A run in space and two in the plane: a system that did not run has not failed.
+TEST_F(Report, SystemsThatNeverMetAreNotCompared) {
+  for (const char* episode : {"out/hall", "out/vault"}) WriteRun(episode, "octo3d-slam", 0.01);
+  for (const char* system : {"sdf2d-slam", "occupancy2d-slam"}) WriteRun("out/room", system, 0.02);
+  WriteRun("out/yard", "occupancy2d-slam", 0.03);
+  for (const auto& folders :
+       {std::vector<fs::path>{folder_ / "out"},
+        {folder_ / "out/hall", folder_ / "out/room", folder_ / "out/vault", folder_ / "out/yard"}}) {
+    const Study study = LoadStudy(folders, {});
+    ASSERT_EQ(study.groups.size(), 2U);
+    const Group &space = study.groups[0], &plane = study.groups[1];
+    EXPECT_THAT(space.name, HasSubstr(": octo3d-slam"));
+    EXPECT_THAT(plane.systems, ElementsAre("sdf2d-slam", "occupancy2d-slam"));
+    EXPECT_THAT(TranslationErrors(space, "octo3d-slam"), ElementsAre(::testing::Lt(0.1), ::testing::Lt(0.1)));
+    EXPECT_THAT(TranslationErrors(plane, "sdf2d-slam"), ElementsAre(::testing::Lt(0.1), kInfinity)) << "met the other";
+    EXPECT_THAT(MedianTable(study).rows[2], ElementsAre("octo3d-slam", "10.00", "-"));
+    EXPECT_EQ(EpisodesTable(space).rows.size(), 2U);
+  }
 }
 
 TEST_F(Report, MediansOfGroupsSideBySide) {
@@ -128,8 +148,7 @@ TEST_F(Report, MediansOfGroupsSideBySide) {
 
 // 5,000 registrations of 0.2 ms in a second; 4 iterations in 0.2 ms, 6 in 0.2 ms: 20,000 and 30,000.
 TEST(SpeedTable, CountsRegistrationsAndTheirIterations) {
-  Study study{.systems = {"a", "b"}, .groups = {}, .failure_rule = {}};
-  Group group;
+  Group group{.name = "", .systems = {"a", "b"}, .episodes = {}};
   for (const double iterations : {4.0, 6.0}) {
     Episode episode;
     result::Timing& timing = *episode.runs["a"].metrics.mutable_timing();
@@ -147,7 +166,7 @@ TEST(SpeedTable, CountsRegistrationsAndTheirIterations) {
     episode.runs["b"] = {};
     group.episodes.push_back(episode);
   }
-  EXPECT_THAT(SpeedTable(study, group).rows,
+  EXPECT_THAT(SpeedTable(group).rows,
               ElementsAre(ElementsAre("a", "whole scan", "0.500", "0.900", "1250", "", ""),
                           ElementsAre("a", "fuse", "0.200", "0.300", "5000", "", ""),
                           ElementsAre("a", "register", "0.200", "0.300", "5000", "5.00", "25000")));
@@ -177,14 +196,14 @@ TEST_F(Report, ErrorsAreSetAgainstTheBound) {
   const Study study = LoadStudy({folder_ / "low", folder_ / "none"}, {});
   const Table overview = OverviewTable(study);
   ASSERT_EQ(overview.rows.size(), 4u);
-  EXPECT_THAT(overview.rows[0],
-              ElementsAre("low", "a", "3/3", "7.00", "7.00", "0.00", "1.00", "1.00", "-", "2.00", "-", "-", "-", "-"));
-  EXPECT_THAT(overview.rows[1],
-              ElementsAre("low", "b", "3/3", "14.0", "14.0", "0.00", "2.00", "2.00", "-", "4.00", "-", "-", "-", "-"));
-  EXPECT_EQ(overview.rows[2][9], "-") << "no noise, no bound";
-  const Table systems = SystemsTable(study, study.groups[0]);
-  EXPECT_EQ(systems.header[10], "RMSE / bound");
-  EXPECT_EQ(systems.rows[0][10], "1.98");
+  EXPECT_THAT(overview.rows[0], ElementsAre("low", "a", "3/3", "7.00", "7.00", "0.00", "0.00", "0.00", "1.00", "1.00",
+                                            "-", "2.00", "-", "-", "-", "-"));
+  EXPECT_THAT(overview.rows[1], ElementsAre("low", "b", "3/3", "14.0", "14.0", "0.00", "0.00", "0.00", "2.00", "2.00",
+                                            "-", "4.00", "-", "-", "-", "-"));
+  EXPECT_EQ(overview.rows[2][11], "-") << "no noise, no bound";
+  const Table systems = SystemsTable(study.groups[0]);
+  EXPECT_EQ(systems.header[11], "RMSE / bound");
+  EXPECT_EQ(systems.rows[0][11], "1.98");
 }
 
 TEST_F(Report, MapsMotionAndNotesStandOnThePage) {
@@ -204,16 +223,16 @@ TEST_F(Report, MapsMotionAndNotesStandOnThePage) {
   noted.mutable_timing()->set_latency_p99_ms(7.5);
   Write("e/2/a_metrics.json", ToJson(noted));
   const Study study = LoadStudy({folder_ / "e"}, {});
-  EXPECT_THAT(MapTable(study, study.groups[0]).rows,
+  EXPECT_THAT(MapTable(study.groups[0]).rows,
               ElementsAre(ElementsAre("a", "4.00", "11.0", "50.0", "75.0", "99.0", "12.3")));
-  const Table motion = MotionTable(study, study.groups[0]);
+  const Table motion = MotionTable(study.groups[0]);
   ASSERT_EQ(motion.rows.size(), 8u) << "seven steps and the drift; no KITTI segments on so short a run";
   EXPECT_THAT(motion.rows.back(), Contains("1 m, drift from first to last pose"));
-  EXPECT_THAT(PoseErrorTable(study, study.groups[0].episodes[0]).rows.back(),
+  EXPECT_THAT(PoseErrorTable(study.groups[0], study.groups[0].episodes[0]).rows.back(),
               Contains("drift per m, first to last pose"));
-  EXPECT_THAT(TimingTable(study, study.groups[0].episodes[1]).rows,
+  EXPECT_THAT(TimingTable(study.groups[0], study.groups[0].episodes[1]).rows,
               Contains(ElementsAre("a", "latency, arrival to end", "-", "1.50", "-", "7.50", "-", "-")));
-  WritePage(study, {.title = "t", .note = "", .command = "c", .file = folder_ / "out.html"});
+  WritePage(study, {.title = "t", .note = "", .command = "c", .pictures = {}, .file = folder_ / "out.html"});
   EXPECT_THAT(ReadPage(), HasSubstr("2, a: 12 poses in gaps of the reference"));
   EXPECT_THAT(ReadPage(), HasSubstr("2, a: the motion does not excite lever arm z"));
   EXPECT_THAT(ReadPage(), HasSubstr("<figure id=\"group1_timing\"><svg")) << "latency";
@@ -247,8 +266,12 @@ TEST_F(Report, PageHoldsEverything) {
     WriteRun("e/" + std::to_string(k), "sdf2d-slam", 0.001 * (k + 1));
     WriteRun("e/" + std::to_string(k), "occupancy2d-slam", 0.02 + 0.001 * k);
   }
-  WritePage(LoadStudy({folder_ / "e"}, {}),
-            {.title = "A & B", .note = "1 < 2", .command = "evaluator report e", .file = folder_ / "out.html"});
+  Write("speed.svg", "<svg/>");
+  WritePage(LoadStudy({folder_ / "e"}, {}), {.title = "A & B",
+                                             .note = "1 < 2",
+                                             .command = "evaluator report e",
+                                             .pictures = {folder_ / "speed.svg"},
+                                             .file = folder_ / "out.html"});
   const std::string page = ReadPage();
   EXPECT_THAT(page, HasSubstr("<h1>A &amp; B</h1>"));
   EXPECT_THAT(page, HasSubstr("<p>1 &lt; 2</p>"));
@@ -264,6 +287,7 @@ TEST_F(Report, PageHoldsEverything) {
   EXPECT_THAT(page, HasSubstr("<figure id=\"group1_episode1_trajectory\"><svg"));
   EXPECT_THAT(page, HasSubstr("<figure id=\"group1_episode2_error\"><svg"));
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(page, HasSubstr("data:image/svg+xml;base64," + Base64("<svg/>")));
   EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(https?:|/|\\.)"))) << "needs nothing but itself";
   for (const char* name :
        {"group1_boxes.svg", "group1_boxes.pdf", "group1_systems.csv", "group1_episodes.csv", "figures.gp"}) {
@@ -280,7 +304,7 @@ TEST_F(Report, SameFoldersSamePage) {
   WriteRun("run", "sdf2d-slam", 0.01);
   const auto write = [&] {
     WritePage(LoadStudy({folder_ / "run"}, {}),
-              {.title = "t", .note = "", .command = "c", .file = folder_ / "out.html"});
+              {.title = "t", .note = "", .command = "c", .pictures = {}, .file = folder_ / "out.html"});
     return ReadPage();
   };
   EXPECT_EQ(write(), write());
@@ -293,7 +317,8 @@ TEST_F(Report, RunWithoutReferenceOrTrajectoryOrMap) {
   AddRelations(relations, message);
   fs::create_directories(folder_ / "run");
   Write("run/x_metrics.json", ToJson(message));
-  WritePage(LoadStudy({folder_ / "run"}, {}), {.title = "t", .note = "", .command = "c", .file = folder_ / "out.html"});
+  WritePage(LoadStudy({folder_ / "run"}, {}),
+            {.title = "t", .note = "", .command = "c", .pictures = {}, .file = folder_ / "out.html"});
   EXPECT_THAT(ReadPage(), HasSubstr("x: mean error 30.0 mm."));
   EXPECT_THAT(ReadPage(), HasSubstr("<td>relations</td>"));
 }
@@ -316,7 +341,8 @@ TEST_F(Report, BadInputIsNamed) {
   WriteRun("bad", "x", 0.1);
   Write("bad/x_tum.txt", "rubbish");
   const Study study = LoadStudy({folder_ / "bad"}, {});
-  EXPECT_THROW(WritePage(study, {.title = "", .note = "", .command = "", .file = folder_ / "out.html"}), CommandError);
+  EXPECT_THROW(WritePage(study, {.title = "", .note = "", .command = "", .pictures = {}, .file = folder_ / "out.html"}),
+               CommandError);
   EXPECT_NE((FailureRule{.max_mean_m = 0.0}).Validate(), "");
   EXPECT_NE((FailureRule{.min_coverage = 1.1}).Validate(), "");
 }
