@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -18,13 +19,18 @@ namespace fs = std::filesystem;
 
 constexpr double kKittiTurn_s = 0.1;
 
+// Numbers in names count as such: 2.bin comes before 10.bin.
+bool NameBefore(const fs::path& a, const fs::path& b) {
+  return strverscmp(a.filename().c_str(), b.filename().c_str()) < 0;
+}
+
 std::vector<fs::path> FilesOf(const fs::path& folder, const std::string& extension) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == extension) files.push_back(entry.path());
   }
   if (files.empty()) throw BadInput(fmt::format("{}: no {} files", folder.string(), extension));
-  std::ranges::sort(files);
+  std::ranges::sort(files, NameBefore);
   return files;
 }
 

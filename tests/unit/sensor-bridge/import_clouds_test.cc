@@ -90,6 +90,14 @@ TEST(ImportKitti, ScansSideBySide) {
   EXPECT_TRUE(log.On("GROUND_TRUTH").empty());
 }
 
+TEST(ImportClouds, NumbersInNamesCount) {
+  const TemporaryFolder folder;
+  for (const int scan : {0, 2, 10, 100}) Write(folder.path() / fmt::format("scan{}.ply", scan), PlyText(1.0F + scan));
+  const std::vector<Sweep> sweeps = Imported("ply", folder.path()).SweepsOn("LIDAR_3D");
+  ASSERT_EQ(sweeps.size(), 4U);
+  for (const size_t i : {1U, 2U, 3U}) EXPECT_GT(sweeps[i].points[0].x, sweeps[i - 1].points[0].x) << i;
+}
+
 TEST(ImportClouds, PcdAndPly) {
   const TemporaryFolder folder;
   for (const int i : {1, 2}) {
