@@ -85,6 +85,11 @@ std::optional<Pose2> MotionModel::OdometryAt(int64_t utime) const {
   return Interpolate(before.T_odom_body, after->T_odom_body, since_s / SecondsBetween(before.utime, after->utime));
 }
 
+double MotionModel::SecondsUntil(int64_t utime) const {
+  const double dt_s = started_ ? SecondsBetween(utime_, utime) : 0.0;
+  return dt_s > 0.0 && dt_s <= options_.max_gap_s ? dt_s : 0.0;
+}
+
 MotionState MotionModel::Predict(int64_t utime) const {
   MotionState predicted = state_;
   if (!started_) return predicted;

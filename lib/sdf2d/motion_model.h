@@ -43,6 +43,8 @@ class MotionModel {
   // Stamps must rise; others are dropped, unless they jump back by more than max_gap_s, which starts afresh.
   void AddOdometry(int64_t utime, const Pose2& T_odom_body);
 
+  // Since the last corrected state; 0 when there is none, or none of use any more.
+  double SecondsUntil(int64_t utime) const;
   // The state at `utime`, from the last corrected one. Does not change this object.
   MotionState Predict(int64_t utime) const;
   // The state at `utime` is now known to be `state`.

@@ -45,8 +45,9 @@ struct RegistrationOptions {
   // for certainty.
   double shared_sigma_m = 0.005;  // m; the beams that fall on shared_length_m of surface share an error of this size
   double shared_length_m = 0.1;
-  double independence = 0.2;      // of what is left: one beam counts as this part of an independent one
-  double stop_sigmas = 1.0;       // stop after a step that is shorter than this part of the pose's own sigma
+  double independence = 0.2;   // of what is left: one beam counts as this part of an independent one
+  double max_skew_rad = 0.02;  // a scan skewed by more than this by a wrong velocity is deskewed and registered again
+  double stop_sigmas = 1.0;    // stop after a step that is shorter than this part of the pose's own sigma
   double min_eigenvalue = 0.006;  // a direction seen by less than this part of the beams is called unobservable
   int min_points = 20;
 
@@ -93,10 +94,11 @@ struct RecoveryOptions {
   double min_found_ratio = 0.5;   // of all beams must be inliers where the search says it found the pose
   double suspicious_drop = 0.25;  // a fall of the inlier share below its running mean by this starts the coarse level
   double max_surprise_sigmas = 5.0;  // ... and it may not lie farther from the prediction than this
-  double search_m = 1.0;             // half width of the correlative search around the prediction
-  double search_rad = 0.6;           // ... and in yaw
-  double max_search_m = 4.0;         // the window doubles with every scan that stays lost, up to this
-  int patience = 50;                 // scans lost before mapping starts afresh from the predicted pose; 0: never
+  double max_turn_rate = 5.0;  // rad/s; sudden turns up to this are tried where the prediction does not fit; 0: none
+  double search_m = 1.0;       // half width of the correlative search around the prediction
+  double search_rad = 0.6;     // ... and in yaw
+  double max_search_m = 4.0;   // the window doubles with every scan that stays lost, up to this
+  int patience = 50;           // scans lost before mapping starts afresh from the predicted pose; 0: never
 
   std::string Validate() const;
 };

@@ -8,12 +8,13 @@
 
 #include "sdf2d/fusion.h"
 #include "sdf2d/recovery.h"
+#include "sdf2d/sudden_motion.h"
 #include "sdf2d/surface.h"
 
 namespace lcmslam::sdf2d {
 namespace {
 
-constexpr double kInlierSmoothing = 0.1;  // of the running mean, per scan
+constexpr double kInlierSmoothing = 0.1;  // of the running mean, per scan, once there are ten
 
 }  // namespace
 
@@ -39,7 +40,8 @@ Result Pipeline::Process(const PlanarScan& scan) {
   const MotionState prediction = motion_.Predict(scan.utime);
   Charge(Stage::kPrepare, &result);
 
-  const Registration registration = Register(points, prediction, &result);
+  const double dt_s = motion_.SecondsUntil(scan.utime);
+  const Registration registration = Register(points, prediction, dt_s, &result);
   const MotionState& state = registration.align.state;
   motion_.Correct(scan.utime, state);
   if (registration.status != Status::kLost && MapIsDue(state.T_map_body)) UpdateMap(points, state, &result);
@@ -57,7 +59,7 @@ Result Pipeline::Process(const PlanarScan& scan) {
   return result;
 }
 
-Pipeline::Registration Pipeline::Register(std::span<const ScanPoint> points, const MotionState& prediction,
+Pipeline::Registration Pipeline::Register(std::span<const ScanPoint> points, const MotionState& prediction, double dt_s,
                                           Result* result) {
   if (map_.empty()) {
     AlignResult begin;
@@ -66,24 +68,50 @@ Pipeline::Registration Pipeline::Register(std::span<const ScanPoint> points, con
     begin.points = static_cast<int>(points.size());
     return {begin, options_.localize_only ? Status::kLost : Status::kInitializing};
   }
-  AlignResult align = Align(map_, points, origin_body_, noise_, prediction, options_.registration);
+  AlignResult align = AlignAsPredicted(points, prediction, dt_s);
   Charge(Stage::kRegister, result);
-  const RecoveryOptions& recovery = options_.recovery;
-  if (!IsGood(align, prediction) || IsSuspicious(align)) {
-    const AlignResult wide =
-        AlignCoarseToFine(map_, coarse_map_, points, origin_body_, noise_, prediction, options_.registration);
-    if (wide.inliers > align.inliers) align = wide;
-  }
+  if (IsDoubtful(align, prediction)) TryCoarseToFine(points, prediction, &align);
+  const bool turned = IsDoubtful(align, prediction) && TrySuddenTurn(points, prediction, dt_s, &align);
   const bool good = IsGood(align, prediction) && motion_.started();  // a pose given by hand is only where to look
-  if (!good) align = Search(points, prediction);
+  if (!good) {
+    const AlignResult found = Search(points, prediction);
+    if (found.inliers > align.inliers) align = found;
+  }
   Charge(Stage::kRecover, result);
 
-  if (!good && align.InlierRatio() < recovery.min_found_ratio) return GiveUp(prediction, align);
-  const bool found = !good || scans_lost_ > 0;
+  if (!good && align.InlierRatio() < options_.recovery.min_found_ratio) return GiveUp(prediction, align);
+  const bool found = turned || !good || scans_lost_ > 0;
   scans_lost_ = 0;
-  usual_inlier_ratio_ += kInlierSmoothing * (align.InlierRatio() - usual_inlier_ratio_);
+  const double smoothing = std::max(kInlierSmoothing, 1.0 / ++scans_registered_);
+  usual_inlier_ratio_ += smoothing * (align.InlierRatio() - usual_inlier_ratio_);
   if (found) return {align, Status::kRelocalized};
   return {align, align.unobservable.isZero() ? Status::kTracking : Status::kDegenerate};
+}
+
+AlignResult Pipeline::AlignAsPredicted(std::span<const ScanPoint> points, const MotionState& prediction,
+                                       double dt_s) const {
+  const RegistrationOptions& registration = options_.registration;
+  const AlignResult align = Align(map_, points, origin_body_, noise_, prediction, registration);
+  if (Skew_rad(points, prediction, dt_s, align.state.T_map_body) <= registration.max_skew_rad) return align;
+  return AlignDeskewedAgain(map_, points, origin_body_, noise_, prediction, dt_s, align, registration);
+}
+
+void Pipeline::TryCoarseToFine(std::span<const ScanPoint> points, const MotionState& prediction,
+                               AlignResult* align) const {
+  const AlignResult wide =
+      AlignCoarseToFine(map_, coarse_map_, points, origin_body_, noise_, prediction, options_.registration);
+  if (wide.inliers > align->inliers) *align = wide;
+}
+
+bool Pipeline::TrySuddenTurn(std::span<const ScanPoint> points, const MotionState& prediction, double dt_s,
+                             AlignResult* align) const {
+  if (dt_s == 0.0 || options_.recovery.max_turn_rate == 0.0) return false;
+  const AlignResult turned = AlignTurning(map_, coarse_map_, points, origin_body_, noise_, prediction, dt_s,
+                                          options_.recovery.max_turn_rate, options_.registration);
+  const bool as_good = IsGood(turned, prediction) || !IsGood(*align, prediction);
+  if (!as_good || turned.inliers <= align->inliers) return false;
+  *align = turned;
+  return true;
 }
 
 AlignResult Pipeline::Search(std::span<const ScanPoint> points, const MotionState& prediction) const {
@@ -137,6 +165,10 @@ void Pipeline::UpdateMap(std::span<const ScanPoint> points, const MotionState& s
 
 bool Pipeline::IsSuspicious(const AlignResult& align) const {
   return align.InlierRatio() < usual_inlier_ratio_ - options_.recovery.suspicious_drop;
+}
+
+bool Pipeline::IsDoubtful(const AlignResult& align, const MotionState& prediction) const {
+  return !IsGood(align, prediction) || IsSuspicious(align);
 }
 
 // Enough of the scan fell on mapped surface, and enough of that fits. What fits much less than usual must at least

@@ -89,9 +89,16 @@ class Pipeline {
 
   bool Accepts(int64_t utime, std::span<const ScanPoint> points) const;
   void RestartClockIfItJumped(int64_t utime);
-  Registration Register(std::span<const ScanPoint> points, const MotionState& prediction, Result* result);
+  // dt_s: since the last scan; 0 where that tells nothing of the motion.
+  Registration Register(std::span<const ScanPoint> points, const MotionState& prediction, double dt_s, Result* result);
+  AlignResult AlignAsPredicted(std::span<const ScanPoint> points, const MotionState& prediction, double dt_s) const;
+  // These two replace `align` where they fit better.
+  void TryCoarseToFine(std::span<const ScanPoint> points, const MotionState& prediction, AlignResult* align) const;
+  bool TrySuddenTurn(std::span<const ScanPoint> points, const MotionState& prediction, double dt_s,
+                     AlignResult* align) const;  // whether it did
   bool IsSuspicious(const AlignResult& align) const;
   bool IsGood(const AlignResult& align, const MotionState& prediction) const;
+  bool IsDoubtful(const AlignResult& align, const MotionState& prediction) const;
   AlignResult Search(std::span<const ScanPoint> points, const MotionState& prediction) const;
   Registration GiveUp(const MotionState& prediction, AlignResult align);
   bool MapIsDue(const Pose2& T_map_body) const;
@@ -107,6 +114,7 @@ class Pipeline {
   ScanField field_;
   Eigen::Vector2d origin_body_;      // the lidar's
   double usual_inlier_ratio_ = 0.0;  // running mean
+  int scans_registered_ = 0;
   int scans_lost_ = 0;
   int64_t scans_mapped_ = 0;
   Pose2 T_map_body_mapped_;  // where the last one was

@@ -38,10 +38,11 @@ struct AlignResult {
 //   1 / w_i = sigma_i^2 cos(incidence_i)^2 + sigma_map^2 + n_i sigma_shared^2,
 // n_i the beams that share an error with beam i, k the independence of the rest: an iterated Kalman update by
 // Gauss-Newton on SE(2) x R^3 with Levenberg-Marquardt damping and Huber's rho (in sigmas of the beam alone). The scan
-// is deskewed once, with the predicted velocity v, and moves the velocity only through the prediction's covariance P: a
-// velocity estimated from the distortion within the scan takes errors of the map, which its beams share, for motion.
-// Along directions that the scan does not determine the prediction's covariance decides: they stay where it put them,
-// and the little that a scan does say of them counts for no more than it is worth. Pure.
+// is deskewed once, with the predicted velocity v (sudden_motion.h says what is done where v was wrong), and moves the
+// velocity only through the prediction's covariance P: a velocity estimated from the distortion within the scan takes
+// errors of the map, which its beams share, for motion. Along directions that the scan does not determine the
+// prediction's covariance decides: they stay where it put them, and the little that a scan does say of them counts for
+// no more than it is worth. Pure.
 [[nodiscard]] AlignResult Align(const SdfMap& map, std::span<const ScanPoint> points,
                                 const Eigen::Vector2d& origin_body, const NoiseModel& noise,
                                 const MotionState& prediction, const RegistrationOptions& options);

@@ -24,7 +24,7 @@ void BindRegistration(ConfigBinder bind, sdf2d::RegistrationOptions& registratio
   bind("inlier_sigmas", registration.inlier_sigmas)("map_sigma_m", registration.map_sigma_m);
   bind("min_cos_incidence", registration.min_cos_incidence)("shared_sigma_m", registration.shared_sigma_m);
   bind("shared_length_m", registration.shared_length_m)("independence", registration.independence);
-  bind("stop_sigmas", registration.stop_sigmas);
+  bind("max_skew_rad", registration.max_skew_rad)("stop_sigmas", registration.stop_sigmas);
   bind("min_eigenvalue", registration.min_eigenvalue)("min_points", registration.min_points);
 }
 
@@ -39,15 +39,16 @@ void BindFusion(ConfigBinder bind, sdf2d::FusionOptions& fusion) {
   bind("distance_sigma", fusion.distance_sigma)("end_sigma", fusion.end_sigma)("end_cells", fusion.end_cells);
   bind("sigma_floor_m", fusion.sigma_floor_m)("max_information", fusion.max_information);
   bind("change_sigmas", fusion.change_sigmas)("change_m", fusion.change_m)("change_keep", fusion.change_keep);
-  bind("update_distance_m", fusion.update_distance_m)("update_angle_rad", fusion.update_angle_rad)(
-      "carve", fusion.carve)("carve_every", fusion.carve_every)("carve_keep", fusion.carve_keep);
+  bind("update_distance_m", fusion.update_distance_m)("update_angle_rad", fusion.update_angle_rad);
+  bind("carve", fusion.carve)("carve_every", fusion.carve_every)("carve_keep", fusion.carve_keep);
 }
 
 void BindRecovery(ConfigBinder bind, sdf2d::RecoveryOptions& recovery) {
   bind("min_inlier_ratio", recovery.min_inlier_ratio)("min_overlap", recovery.min_overlap);
   bind("min_found_ratio", recovery.min_found_ratio)("suspicious_drop", recovery.suspicious_drop);
-  bind("max_surprise_sigmas", recovery.max_surprise_sigmas)("search_m", recovery.search_m);
-  bind("search_rad", recovery.search_rad)("max_search_m", recovery.max_search_m)("patience", recovery.patience);
+  bind("max_surprise_sigmas", recovery.max_surprise_sigmas)("max_turn_rate", recovery.max_turn_rate);
+  bind("search_m", recovery.search_m)("search_rad", recovery.search_rad)("max_search_m", recovery.max_search_m);
+  bind("patience", recovery.patience);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "sdf2d/fusion.h"
 #include "sdf2d/recovery.h"
+#include "sdf2d/sudden_motion.h"
 #include "simulation/planar_world.h"
 
 namespace lcmslam::sdf2d {
@@ -197,6 +198,66 @@ TEST(Recovery, SearchFindsAFarPose) {
                                             Prediction(guess, Vector3d::Zero(), 0.05), 1.0, 0.6, {});
     EXPECT_LT((truth.inverse() * result.state.T_map_body).Log().norm(), 0.005);
   }
+}
+
+constexpr double kSweep_s = 0.15;  // of the scans below, and between them
+
+TEST(SuddenMotion, SkewIsTheUnforeseenTurn) {
+  const std::vector<ScanPoint> points = {{{1.0, 0.0}, 1.0, -kSweep_s}, {{2.0, 0.0}, 2.0, 0.0}};
+  const MotionState prediction = Prediction(Pose2(1.0, 2.0, 3.0), {0.2, 0.0, 0.5}, 0.1);
+  const Pose2 turned = prediction.T_map_body * Pose2::Exp(kSweep_s * Vector3d(0.0, 0.0, -2.0));
+  EXPECT_NEAR(Skew_rad(points, prediction, kSweep_s, turned), 2.0 * kSweep_s, 1e-9);
+  EXPECT_NEAR(Skew_rad(points, prediction, kSweep_s, prediction.T_map_body), 0.0, 1e-9);
+  EXPECT_EQ(Skew_rad(points, prediction, 0.0, turned), 0.0) << "no scan before";
+  EXPECT_EQ(Skew_rad({}, prediction, kSweep_s, turned), 0.0);
+}
+
+TEST(SuddenMotion, DeskewingAgainComesCloser) {
+  const PlanarWorld world(RoomWalls());
+  const SdfMap map = MapOf(RoomWalls(), 0.05, 0.3);
+  const Pose2 last(2.5, 1.8, 0.4);
+  std::mt19937_64 random(6);
+  for (const double turn_rate : {-0.6, -0.2, 0.2, 0.6}) {
+    SCOPED_TRACE(turn_rate);
+    const Vector3d twist(0.1, 0.0, turn_rate);
+    const Pose2 truth = last * Pose2::Exp(kSweep_s * twist);
+    const auto points = Scan(world, truth, twist, 0.005, kSweep_s, random);
+    const MotionState at_rest = Prediction(last, Vector3d::Zero(), 0.2);
+    const auto error = [&](const AlignResult& align) {
+      return (truth.inverse() * align.state.T_map_body).Log().norm();
+    };
+    const AlignResult once = Align(map, points, Vector2d::Zero(), Noise(0.005), at_rest, {});
+    const AlignResult again =
+        AlignDeskewedAgain(map, points, Vector2d::Zero(), Noise(0.005), at_rest, kSweep_s, once, {});
+    EXPECT_GE(again.inliers, once.inliers);
+    EXPECT_LT(error(again), 0.5 * error(once));
+  }
+}
+
+// Between two scans, from rest or from 3 rad/s.
+TEST(SuddenMotion, TurnsAreTried) {
+  const PlanarWorld world(RoomWalls());
+  const SdfMap map = MapOf(RoomWalls(), 0.05, 0.08), coarse_map = Coarsen(map, 0.2, {});
+  const Pose2 last(2.5, 1.8, 0.4);
+  std::mt19937_64 random(6);
+  for (const double before : {0.0, 3.0}) {
+    for (const double turn_rate : {-3.0, -1.2, 0.0, 3.0, 4.9}) {
+      SCOPED_TRACE(testing::Message() << before << " then " << turn_rate << " rad/s");
+      const Vector3d twist(0.1, 0.0, turn_rate), foreseen(0.1, 0.0, before);
+      const Pose2 truth = last * Pose2::Exp(kSweep_s * twist);
+      const auto points = Scan(world, truth, twist, 0.005, kSweep_s, random);
+      const MotionState prediction = Prediction(last * Pose2::Exp(kSweep_s * foreseen), foreseen, 0.05);
+      const AlignResult result =
+          AlignTurning(map, coarse_map, points, Vector2d::Zero(), Noise(0.005), prediction, kSweep_s, 5.0, {});
+      EXPECT_LT((truth.inverse() * result.state.T_map_body).Log().norm(), 0.01);
+      EXPECT_LT((result.state.twist_body - twist).norm(), 0.1);
+      EXPECT_GT(result.InlierRatio(), 0.95);
+    }
+  }
+  const AlignResult none = AlignTurning(map, coarse_map, {}, Vector2d::Zero(), Noise(0.005),
+                                        Prediction(last, {0, 0, 0}, 0.05), kSweep_s, 5.0, {});
+  EXPECT_EQ(none.status, AlignStatus::kTooFewPoints);
+  EXPECT_EQ(none.state.T_map_body.Log(), last.Log()) << "the prediction stands";
 }
 
 }  // namespace
