@@ -14,6 +14,7 @@ main() {
     refuses_configuration "$bin/$service"
     refuses_input "$bin/$service"
   done
+  refuses_commands
   finish_test
 }
 
@@ -50,6 +51,15 @@ refuses_configuration() {
   check_refused "binary configuration" 2 "random.pbtxt" "$1" --config random.pbtxt
   check_refused "unknown field in --set" 2 "frobnicate" "$1" --set frobnicate=1
   check_refused "--set without value" 2 "path=value" "$1" --set frobnicate
+}
+
+refuses_commands() {
+  echo "== slam-command"
+  check_refused "no command" 2 "subcommand" "$bin/slam-command"
+  check_refused "no such command" 2 "subcommand" "$bin/slam-command" jump
+  check_refused "half a pose" 2 "Y is required" "$bin/slam-command" pose 1
+  check_refused "a pose in words" 2 "here" "$bin/slam-command" pose here 2 3
+  check_refused "bus that is none" 2 "carrier-pigeon" "$bin/slam-command" reset --lcm-url carrier-pigeon://somewhere
 }
 
 refuses_input() {

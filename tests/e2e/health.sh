@@ -140,12 +140,12 @@ check_commands() {
   local service=$1 poses
   command_slam "$service" reset
   check "$service: reset: it says so" hear "$service" any 'text ~ /reset/'
-  command_slam "$service" pose 10 20 1.5
+  command_slam "$service" pose -10 20 1.5
   check "$service: set pose: it says so" hear "$service" any 'text ~ /pose set/'
   poses=$(count_poses "$service")
   play later
   wait_until "$service" has_pose "$service" "$poses" 403.5
-  check "$service: set pose: it goes on from there" pose_is_near "$service" "$poses" 403.5 10 20 5
+  check "$service: set pose: it goes on from there" pose_is_near "$service" "$poses" 403.5 -10 20 5
   command_slam "$service" save "kept-$service"
   check "$service: save: it says so" hear "$service" any 'text ~ /saved kept/'
   check "$service: save: the map is there" test -s "kept-$service${map[$service]}"
@@ -168,17 +168,14 @@ check_load() {
   check "$service: load: it says that there is none" hear "$service" any 'text ~ /no such map: /'
   command_slam "$service" load "kept-$service${map[$service]}"
   check "$service: load: it says so" hear "$service" any 'text ~ /loaded kept/'
-  command_slam "$service" pose 10.1 20 1.5
+  command_slam "$service" pose -10.1 20 1.5
   play later
   wait_until "$service" has_pose "$service" "$poses" "$stamp"
   check "$service: load: it finds its place in the map" pose_is_near "$service" "$poses" "$stamp" "$x" "$y" 0.03
 }
 
 # command_slam SERVICE COMMAND ARGUMENT...
-command_slam() {
-  "$bin/command_log" command.lcm "$@"
-  play command
-}
+command_slam() { "$bin/slam-command" --lcm-url "$lcm_url" --service "$@"; }
 
 count_poses() { wc -l <"out/$1_tum.txt"; }
 
