@@ -116,8 +116,8 @@ VelodynePacket DecodeVelodynePacket(std::span<const uint8_t> payload) {
   // In dual mode two blocks show the same shots.
   const int blocks_per_firing = mode == kDual ? 2 : 1;
   const int last_firing = kBlocks / blocks_per_firing - 1;
-  const int turned = (blocks.back().azimuth - blocks.front().azimuth + kAzimuthUnitsPerTurn) % kAzimuthUnitsPerTurn;
-  const double rate_rad_per_us = DegToRad(kAzimuthUnit_deg * turned) / (last_firing * plan.duration_us);
+  const double turned_rad = WrapAngle(DegToRad(kAzimuthUnit_deg * (blocks.back().azimuth - blocks.front().azimuth)));
+  const double rate_rad_per_us = turned_rad / (last_firing * plan.duration_us);
   for (int b = 0; b < kBlocks; ++b) {
     const Block& block = blocks[static_cast<size_t>(b)];
     for (size_t i = 0; i < kReturnsPerBlock; ++i) {
@@ -128,7 +128,7 @@ VelodynePacket DecodeVelodynePacket(std::span<const uint8_t> payload) {
       const double into_block_us = plan.beams[i].laser.fire_delay_us;
       const double azimuth_rad = DegToRad(kAzimuthUnit_deg * block.azimuth) + rate_rad_per_us * into_block_us;
       const double delay_us = b / blocks_per_firing * plan.duration_us + into_block_us;
-      packet.points.push_back(Place(r, plan.beams[i], std::fmod(azimuth_rad, kTurn_rad), delay_us));
+      packet.points.push_back(Place(r, plan.beams[i], std::fmod(azimuth_rad + kTurn_rad, kTurn_rad), delay_us));
     }
   }
   if (mode == kDual) std::ranges::stable_sort(packet.points, {}, &VelodynePoint::delay_us);

@@ -80,6 +80,22 @@ TEST(VelodynePacket, AzimuthPassesZero) {
   }
 }
 
+// Its encoder may then count back a step, also across zero.
+TEST(VelodynePacket, AHeadAtRestLooksOneWay) {
+  for (const int at : {12'000, 0}) {
+    SCOPED_TRACE(at);
+    VelodyneBuilder builder;
+    builder.azimuths.fill(static_cast<uint16_t>(at));
+    builder.azimuths.back() = static_cast<uint16_t>((at + 35'999) % 36'000);
+    for (auto& block : builder.ranges) block.fill(500);
+    for (const VelodynePoint& p : DecodeVelodynePacket(builder.Bytes()).points) {
+      ASSERT_LT(std::abs(WrapAngle(p.azimuth_rad - DegToRad(0.01 * at))), DegToRad(0.03));
+      ASSERT_GE(p.azimuth_rad, 0.0);
+      ASSERT_LT(p.azimuth_rad, 2.0 * std::numbers::pi);
+    }
+  }
+}
+
 // Blocks come in pairs of one time: last return, strongest return.
 TEST(VelodynePacket, DualReturns) {
   VelodyneBuilder builder;
