@@ -8,9 +8,12 @@ require_two_hosts() {
   unshare -rnm sh -c 'mount -t tmpfs hosts /run && ip netns add lidar' 2>/dev/null ||
     { echo "SKIPPED: no network namespaces here" && exit 77; }
   cd / && rm -r "$work" # the one there gets its own
-  # A route, so that nothing looks for another place to run in.
+  mkdir -p -m 1777 /tmp/.X11-unix
+  # A route, so that nothing looks for another place to run in. Screens of our own: programs on the hosts find them by their file,
+  # which the screen of another run would replace.
   LCMSLAM_HOSTS=yes exec unshare -rnm sh -c \
-    'ip link set lo up && ip route add 224.0.0.0/4 dev lo && mount -t tmpfs hosts /run && exec "$@"' sh "$@"
+    'ip link set lo up && ip route add 224.0.0.0/4 dev lo && mount -t tmpfs hosts /run && mount -t tmpfs screens /tmp/.X11-unix &&
+    exec "$@"' sh "$@"
 }
 
 # Before a command: to run it on that host.
