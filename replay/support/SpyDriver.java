@@ -162,6 +162,7 @@ public final class SpyDriver {
 
   /** What the window shows of itself, without its frame. */
   private void capture(String name) throws Exception {
+    view.toFront();  // lcm-spy may have opened its window with the fields since
     robot.waitForIdle();
     Thread.sleep(300);  // a redraw
     Component content = view.getComponent(0);
