@@ -14,6 +14,7 @@ main() {
   check "a healthy host in a network" finds 0 'ttl=1: messages cross 1' networked "$abroad"
   check "no route" mends 'FAULT    route: none' isolated "$here"
   check "route kept on this host" mends 'FAULT    ttl=1 .*, but the route' kept_at_home "$abroad"
+  check "interface that is down" mends 'FAULT    ttl=1 .*, but the route' shut_down "$abroad"
   check "interface without multicast" mends 'FAULT    ttl=1: eth0 does not send multicast' unicast_only "$abroad"
   check "port taken" mends 'FAULT    port 7667: taken by perl' port_taken "$here"
   check "port shared" finds 0 'warning  port 7667: lcm-logger' port_shared "$here"
@@ -47,6 +48,7 @@ connected() {
 }
 networked() { connected && ip route add 224.0.0.0/4 dev eth0; }
 kept_at_home() { connected && ip route add 224.0.0.0/4 dev lo; }
+shut_down() { kept_at_home && ip link set eth0 down && ip link set far down; }
 unicast_only() { networked && ip link set eth0 multicast off; }
 port_taken() {
   healthy
