@@ -20,8 +20,8 @@ main() {
   play mutated 2
   check "mutated messages: it stays" is_running spy
   touch spy/mutated
-  play planar 4
-  play spatial 1
+  play planar 4 # slowly: lcm-spy listens with the kernel's default buffer
+  play spatial 0.5
   touch spy/again
   check "it does as it is told" finish_spy
   # shellcheck disable=SC2016  # for awk to expand
