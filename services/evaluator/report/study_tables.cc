@@ -14,13 +14,14 @@ void AddErrorRow(Table& table, const std::string& system, const std::string& wha
   table.rows.push_back({system, what, Millimetres(t.mean()), Millimetres(t.rmse()), Millimetres(t.median()),
                         Millimetres(t.sd()), Millimetres(t.p95()), Millimetres(t.max()),
                         Milliradians(error.rotation_rad().mean()), Degrees(error.rotation_rad().mean()),
-                        Milliradians(error.rotation_rad().max()), std::to_string(t.count())});
+                        Milliradians(error.rotation_rad().sd()), Milliradians(error.rotation_rad().max()),
+                        std::to_string(t.count())});
 }
 
 // Of what has a mean only.
 void AddMeanRow(Table& table, const std::string& system, const std::string& what, double mean_m, double mean_rad) {
   table.rows.push_back({system, what, Millimetres(mean_m), "-", "-", "-", "-", "-", Milliradians(mean_rad),
-                        Degrees(mean_rad), "-", "-"});
+                        Degrees(mean_rad), "-", "-", "-"});
 }
 
 void AddRatioRow(Table& table, const std::string& system, const std::string& other, const char* what, double a,
@@ -143,8 +144,8 @@ Table PoseErrorTable(const Group& group, const Episode& episode) {
       "Errors over the poses of the run. SD divides by n. KITTI's percentage (segments of 100 to 800 m) is a tenth of "
       "the "
       "mm per m.";
-  table.header = {"system",   "error",    "mean [mm]",   "RMSE [mm]",  "median [mm]",     "SD [mm]",
-                  "p95 [mm]", "max [mm]", "rot. [mrad]", "rot. [deg]", "rot. max [mrad]", "n"};
+  table.header = {"system",   "error",       "mean [mm]",  "RMSE [mm]",      "median [mm]",     "SD [mm]", "p95 [mm]",
+                  "max [mm]", "rot. [mrad]", "rot. [deg]", "rot. SD [mrad]", "rot. max [mrad]", "n"};
   table.text_columns = 2;
   for (const std::string& system : group.systems) {
     const result::Evaluation& m = episode.runs.at(system).metrics;

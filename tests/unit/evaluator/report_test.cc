@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <regex>
 
 #include <gmock/gmock.h>
@@ -144,6 +145,25 @@ TEST_F(Report, MediansOfGroupsSideBySide) {
   const Table table = MedianTable(LoadStudy({folder_ / "g", folder_ / "h"}, {}));
   EXPECT_THAT(table.header, ElementsAre("system", "g", "h"));
   EXPECT_THAT(table.rows, ElementsAre(ElementsAre("a", "20.0", "20.0"), ElementsAre("b", "40.0 (1 of 3)", "40.0")));
+}
+
+TEST(PoseErrorTable, HoldsMeanAndSdOfPositionAndRotation) {
+  Group group{.name = "", .systems = {"a"}, .episodes = {}};
+  Episode episode;
+  result::PoseError& error = *episode.runs["a"].metrics.mutable_absolute();
+  error.mutable_translation_m()->set_mean(0.004);
+  error.mutable_translation_m()->set_sd(0.003);
+  error.mutable_rotation_rad()->set_mean(0.002);
+  error.mutable_rotation_rad()->set_sd(0.001);
+  const Table table = PoseErrorTable(group, episode);
+  ASSERT_EQ(table.rows.size(), 1U);
+  ASSERT_EQ(table.rows[0].size(), table.header.size());
+  std::map<std::string, std::string> cells;
+  for (size_t i = 0; i < table.header.size(); ++i) cells[table.header[i]] = table.rows[0][i];
+  EXPECT_EQ(cells["mean [mm]"], "4.00");
+  EXPECT_EQ(cells["SD [mm]"], "3.00");
+  EXPECT_EQ(cells["rot. [mrad]"], "2.00");
+  EXPECT_EQ(cells["rot. SD [mrad]"], "1.00");
 }
 
 // 5,000 registrations of 0.2 ms in a second; 4 iterations in 0.2 ms, 6 in 0.2 ms: 20,000 and 30,000.
