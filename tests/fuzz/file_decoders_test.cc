@@ -26,6 +26,7 @@
 #include "sensors/ros_point_cloud.h"
 #include "sensors/rosbag_reader.h"
 #include "sensors/velodyne_reader.h"
+#include "support/as_bytes.h"
 #include "support/rosbag_builder.h"
 #include "support/sample_messages.h"
 #include "support/temporary_file.h"
@@ -167,7 +168,7 @@ Read ReadsBytes(const Parse& parse) {
   return [parse](const fs::path& path) {
     const std::string bytes = ReadInput(path);
     try {
-      parse(std::span(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()));
+      parse(AsBytes(bytes));
     } catch (const BadInput& error) {
       throw BadInput(path.string() + ": " + error.what());
     }

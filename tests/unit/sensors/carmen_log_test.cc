@@ -16,6 +16,7 @@
 
 #include "geometry/angles.h"
 #include "sensors/bad_input.h"
+#include "support/error_of.h"
 #include "support/real_data.h"
 #include "support/temporary_file.h"
 
@@ -47,14 +48,9 @@ CarmenScan ReadScan(const std::string& text, const CarmenOptions& options = {}) 
   return std::get<CarmenScan>(records.at(0));
 }
 
-std::string ErrorOf(const std::string& bytes) {
+std::string RefusalOf(const std::string& bytes) {
   const TemporaryFile file(bytes, ".clf");
-  try {
-    ReadAll(file.path());
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorOf([&] { ReadAll(file.path()); });
 }
 
 template <class Compressor>
@@ -146,17 +142,17 @@ TEST(CarmenLog, CompressedOrNotIsTheSame) {
 
 TEST(CarmenLog, MalformedLinesAreNamed) {
   const std::string ok = Flaser(3);
-  EXPECT_THAT(ErrorOf(ok + "FLASER 5 1 2 3\n"), HasSubstr(".clf:2: FLASER announces 5 values, but only 3 follow"));
-  EXPECT_THAT(ErrorOf(ok + ok + "FLASER 4 1 1 1 9 9 9 1 2 3 1.5 host 1\n"), HasSubstr(".clf:3: FLASER has"));
-  EXPECT_THAT(ErrorOf("FLASER\n"), HasSubstr(".clf:1: FLASER ends early"));
-  EXPECT_THAT(ErrorOf("\n#\nODOM 1 2 x 0 0 0 1 host 1\n"), HasSubstr(".clf:3: 'x' is not a number"));
-  EXPECT_THAT(ErrorOf("ODOM 1 2 3 0 0 0 nan host 1\n"), HasSubstr("'nan' is no time"));
-  EXPECT_THAT(ErrorOf("ODOM 1 2 3 0 0 0 1e300 host 1\n"), HasSubstr("'1e300' is no time"));
-  EXPECT_THAT(ErrorOf("FLASER 4294967295 1" + std::string(kTail)), HasSubstr("announces 4294967295"));
-  EXPECT_THAT(ErrorOf("FLASER -1 1" + std::string(kTail)), HasSubstr("'-1' is not a number"));
-  EXPECT_THAT(ErrorOf("ROBOTLASER1 4 -2.0 4.0 0.5 30.0 0.01 0 3 1 2 3\n"), HasSubstr("ROBOTLASER1 ends early"));
-  EXPECT_THAT(ErrorOf(std::string(5 << 20, 'x')), HasSubstr("longer than any line"));
-  EXPECT_EQ(ErrorOf(""), "");
+  EXPECT_THAT(RefusalOf(ok + "FLASER 5 1 2 3\n"), HasSubstr(".clf:2: FLASER announces 5 values, but only 3 follow"));
+  EXPECT_THAT(RefusalOf(ok + ok + "FLASER 4 1 1 1 9 9 9 1 2 3 1.5 host 1\n"), HasSubstr(".clf:3: FLASER has"));
+  EXPECT_THAT(RefusalOf("FLASER\n"), HasSubstr(".clf:1: FLASER ends early"));
+  EXPECT_THAT(RefusalOf("\n#\nODOM 1 2 x 0 0 0 1 host 1\n"), HasSubstr(".clf:3: 'x' is not a number"));
+  EXPECT_THAT(RefusalOf("ODOM 1 2 3 0 0 0 nan host 1\n"), HasSubstr("'nan' is no time"));
+  EXPECT_THAT(RefusalOf("ODOM 1 2 3 0 0 0 1e300 host 1\n"), HasSubstr("'1e300' is no time"));
+  EXPECT_THAT(RefusalOf("FLASER 4294967295 1" + std::string(kTail)), HasSubstr("announces 4294967295"));
+  EXPECT_THAT(RefusalOf("FLASER -1 1" + std::string(kTail)), HasSubstr("'-1' is not a number"));
+  EXPECT_THAT(RefusalOf("ROBOTLASER1 4 -2.0 4.0 0.5 30.0 0.01 0 3 1 2 3\n"), HasSubstr("ROBOTLASER1 ends early"));
+  EXPECT_THAT(RefusalOf(std::string(5 << 20, 'x')), HasSubstr("longer than any line"));
+  EXPECT_EQ(RefusalOf(""), "");
 }
 
 TEST(CarmenLog, MissingFilesAndDamagedCompression) {
@@ -166,9 +162,9 @@ TEST(CarmenLog, MissingFilesAndDamagedCompression) {
   for (int i = 0; i < 3000; ++i) text += Flaser(1 + i % 180);
   for (std::string bytes :
        {Compress(text, boost::iostreams::gzip_compressor()), Compress(text, boost::iostreams::bzip2_compressor())}) {
-    EXPECT_THAT(ErrorOf(bytes.substr(0, bytes.size() / 2)), HasSubstr("damaged compression"));
+    EXPECT_THAT(RefusalOf(bytes.substr(0, bytes.size() / 2)), HasSubstr("damaged compression"));
     bytes[bytes.size() / 2] = static_cast<char>(~bytes[bytes.size() / 2]);
-    EXPECT_NE(ErrorOf(bytes), "");
+    EXPECT_NE(RefusalOf(bytes), "");
   }
 }
 
@@ -180,7 +176,7 @@ TEST(CarmenLog, SurvivesMutation) {
   for (int i = 0; i < 2000; ++i) {
     std::string bytes = text;
     for (int k = 0; k < 3; ++k) bytes[random() % bytes.size()] = static_cast<char>(random());
-    if (!ErrorOf(bytes).empty()) ++refused;
+    if (!RefusalOf(bytes).empty()) ++refused;
   }
   EXPECT_GT(refused, 1000);
 }

@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sensors/bad_input.h"
 #include "sensors/input_file.h"
+#include "support/as_bytes.h"
+#include "support/error_of.h"
 #include "support/real_data.h"
 
 namespace lcmslam {
@@ -16,15 +16,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::string ErrorOf(const std::function<void()>& parse) {
-  try {
-    parse();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Kitti, DecodesPoints) {
   const float values[] = {1.0F, -2.0F, 3.0F, 0.5F, NAN, 0.0F, 0.0F, 0.25F};
@@ -95,7 +86,7 @@ TEST(Kitti, RealFiles) {
   const auto path = RealData("kitti_raw_0005/000000.bin");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const std::string bytes = ReadInput(path);
-  const auto points = DecodeKittiPoints({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+  const auto points = DecodeKittiPoints(AsBytes(bytes));
   EXPECT_EQ(points.size(), 123'398u);
   int in_range = 0;
   for (const SweepPoint& p : points) in_range += std::hypot(p.x, p.y, p.z) < 120.0F && p.intensity <= 1.0F ? 1 : 0;

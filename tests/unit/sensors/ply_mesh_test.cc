@@ -6,6 +6,8 @@
 
 #include "sensors/bad_input.h"
 #include "sensors/ply.h"
+#include "support/as_bytes.h"
+#include "support/error_of.h"
 
 namespace lcmslam {
 namespace {
@@ -19,22 +21,15 @@ constexpr char kMesh[] =
     "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 2.5\n4 0 1 2 3\n2 0 1\n3 0 1 4\n";
 
-PlyMesh Mesh(const std::string& text) {
-  return ParsePlyMesh({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
-}
+PlyMesh Mesh(const std::string& text) { return ParsePlyMesh(AsBytes(text)); }
 
 std::string With(const std::string& from, const std::string& to) {
   std::string text = kMesh;
   return text.replace(text.find(from), from.size(), to);
 }
 
-std::string ErrorOf(const std::string& text) {
-  try {
-    (void)Mesh(text);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+std::string RefusalOf(const std::string& text) {
+  return ErrorOf([&] { (void)Mesh(text); });
 }
 
 TEST(PlyMesh, FacesBecomeFansOfTriangles) {
@@ -47,14 +42,14 @@ TEST(PlyMesh, FacesBecomeFansOfTriangles) {
 }
 
 TEST(PlyMesh, SaysWhatIsWrong) {
-  EXPECT_EQ(ErrorOf(With("3 0 1 4", "3 0 1 5")), "PLY line 17: a face with vertex 5 of 5");
-  EXPECT_EQ(ErrorOf(With("3 0 1 4", "3 0 -1 4")), "PLY line 17: a face with vertex -1 of 5");
-  EXPECT_EQ(ErrorOf(With("3 0 1 4", "3 0 one 4")), "PLY line 17: 'one' is not a number");
-  EXPECT_THAT(ErrorOf(With("0 0 2.5", "0 0 nan")), HasSubstr("vertex 4 is not finite"));
-  EXPECT_THAT(ErrorOf(With("float z", "float depth")), HasSubstr("no z"));
-  EXPECT_THAT(ErrorOf(With("vertex_indices", "colours")), HasSubstr("no faces"));
-  EXPECT_THAT(ErrorOf(With("element face", "element vertex_pair")), HasSubstr("no faces"));
-  EXPECT_THAT(ErrorOf(""), HasSubstr("does not begin with 'ply'"));
+  EXPECT_EQ(RefusalOf(With("3 0 1 4", "3 0 1 5")), "PLY line 17: a face with vertex 5 of 5");
+  EXPECT_EQ(RefusalOf(With("3 0 1 4", "3 0 -1 4")), "PLY line 17: a face with vertex -1 of 5");
+  EXPECT_EQ(RefusalOf(With("3 0 1 4", "3 0 one 4")), "PLY line 17: 'one' is not a number");
+  EXPECT_THAT(RefusalOf(With("0 0 2.5", "0 0 nan")), HasSubstr("vertex 4 is not finite"));
+  EXPECT_THAT(RefusalOf(With("float z", "float depth")), HasSubstr("no z"));
+  EXPECT_THAT(RefusalOf(With("vertex_indices", "colours")), HasSubstr("no faces"));
+  EXPECT_THAT(RefusalOf(With("element face", "element vertex_pair")), HasSubstr("no faces"));
+  EXPECT_THAT(RefusalOf(""), HasSubstr("does not begin with 'ply'"));
 }
 
 // Whatever is changed: a mesh whose triangles have their vertices, or BadInput.

@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <random>
 #include <string>
 
@@ -14,6 +13,8 @@
 #include "sensors/bad_input.h"
 #include "sensors/pcd.h"
 #include "sensors/ply.h"
+#include "support/as_bytes.h"
+#include "support/error_of.h"
 
 namespace lcmslam {
 namespace {
@@ -21,9 +22,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::span<const uint8_t> AsBytes(const std::string& text) {
-  return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
-}
 PointTable Pcd(const std::string& text) { return ParsePcd(AsBytes(text)); }
 PointTable Ply(const std::string& text) { return ParsePly(AsBytes(text)); }
 
@@ -33,15 +31,6 @@ std::string Raw(Number number, bool big_endian = false) {
   std::memcpy(bytes.data(), &number, sizeof number);
   if (big_endian) std::ranges::reverse(bytes);
   return bytes;
-}
-
-std::string ErrorOf(const std::function<void()>& parse) {
-  try {
-    parse();
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // Two points with every kind of field: float x y z, uint16 ring, float64 timestamp, three normals, padding.

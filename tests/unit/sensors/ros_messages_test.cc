@@ -7,17 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "sensors/bad_input.h"
+#include "support/as_bytes.h"
 #include "support/ros_bytes.h"
 
 namespace lcmslam {
 namespace {
 
-std::span<const uint8_t> Span(const std::string& bytes) {
-  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
-}
-
 RosLaserScan Scan(float time_increment_s, const std::vector<float>& ranges_m) {
-  return DecodeRosLaserScan(Span(RosLaserScanBytes(5'000'000, "/laser", -1.0F, 0.5F, time_increment_s, ranges_m)));
+  return DecodeRosLaserScan(AsBytes(RosLaserScanBytes(5'000'000, "/laser", -1.0F, 0.5F, time_increment_s, ranges_m)));
 }
 
 TEST(RosMessages, LaserScanIsStampedWithItsLastBeam) {
@@ -73,25 +70,25 @@ TEST(RosMessages, PosesOfEveryType) {
         {"geometry_msgs/TransformStamped", transform, "base_link"}}) {
     SCOPED_TRACE(type);
     EXPECT_TRUE(IsRosPoseType(type));
-    const RosPose decoded = DecodeRosPose(type, Span(bytes));
+    const RosPose decoded = DecodeRosPose(type, AsBytes(bytes));
     EXPECT_EQ(decoded.utime, 7'000'001);
     EXPECT_EQ(decoded.child_frame, child);
     EXPECT_EQ(decoded.T_frame_child.translation, pose.translation);
     EXPECT_EQ(decoded.T_frame_child.rotation.coeffs(), pose.rotation.coeffs());
-    EXPECT_THROW((void)DecodeRosPose(type, Span(bytes + "x")), BadInput);
-    EXPECT_THROW((void)DecodeRosPose(type, Span(bytes.substr(1))), BadInput);
+    EXPECT_THROW((void)DecodeRosPose(type, AsBytes(bytes + "x")), BadInput);
+    EXPECT_THROW((void)DecodeRosPose(type, AsBytes(bytes.substr(1))), BadInput);
   }
   EXPECT_FALSE(IsRosPoseType("geometry_msgs/Pose"));
 }
 
 TEST(RosMessages, Transforms) {
   const std::string one = RosTransformBytes(1, "base", "laser", {});
-  const auto transforms = DecodeRosTransforms(Span(one));
+  const auto transforms = DecodeRosTransforms(AsBytes(one));
   ASSERT_EQ(transforms.size(), 1U);
   EXPECT_EQ(transforms[0].frame, "base");
   EXPECT_EQ(transforms[0].child_frame, "laser");
-  EXPECT_TRUE(DecodeRosTransforms(Span(std::string(4, '\0'))).empty());
-  EXPECT_THROW((void)DecodeRosTransforms(Span(std::string(4, '\xff'))), BadInput);
+  EXPECT_TRUE(DecodeRosTransforms(AsBytes(std::string(4, '\0'))).empty());
+  EXPECT_THROW((void)DecodeRosTransforms(AsBytes(std::string(4, '\xff'))), BadInput);
 }
 
 TEST(RosMessages, MutatedBytesAreRefusedOrRead) {
@@ -103,7 +100,7 @@ TEST(RosMessages, MutatedBytesAreRefusedOrRead) {
     bytes[random() % bytes.size()] = static_cast<char>(random());
     if (random() % 4 == 0) bytes.resize(random() % bytes.size());
     try {
-      const PlanarScan scan = ToPlanarScan(DecodeRosLaserScan(Span(bytes)), false);
+      const PlanarScan scan = ToPlanarScan(DecodeRosLaserScan(AsBytes(bytes)), false);
       EXPECT_LE(scan.beams.size(), 100U);
     } catch (const BadInput&) {
       ++refused;

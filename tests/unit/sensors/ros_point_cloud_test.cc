@@ -9,6 +9,8 @@
 
 #include "sensors/bad_input.h"
 #include "sensors/ros_messages.h"
+#include "support/as_bytes.h"
+#include "support/error_of.h"
 #include "support/ros_bytes.h"
 
 namespace lcmslam {
@@ -18,18 +20,10 @@ using testing::HasSubstr;
 
 constexpr int64_t kUtime = 1'600'000'000'000'000;
 
-std::span<const uint8_t> Span(const std::string& bytes) {
-  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
-}
-Sweep SweepOf(const std::string& bytes) { return ToSweep(DecodeRosPointCloud(Span(bytes))); }
+Sweep SweepOf(const std::string& bytes) { return ToSweep(DecodeRosPointCloud(AsBytes(bytes))); }
 
-std::string ErrorOf(const std::string& bytes) {
-  try {
-    (void)SweepOf(bytes);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+std::string RefusalOf(const std::string& bytes) {
+  return ErrorOf([&] { (void)SweepOf(bytes); });
 }
 
 // As velodyne_pointcloud writes them: x, y, z, intensity, ring, time, with padding.
@@ -107,7 +101,7 @@ TEST(RosPointCloud, TimesOfWhatIsNoReturnDoNotCount) {
   const auto point = [](float x, double time_s) { return RosBytes().Put(x).Put(x).Put(x).Put(time_s).data(); };
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const Sweep sweep = SweepOf(RosPointCloudBytes(
-      kUtime, "organised", fields, 20,
+      kUtime, "organized", fields, 20,
       point(nan, 0.0) + point(1.0F, 1.6e9 - 0.1) + point(0.0F, 2e9) + point(nan, nan) + point(2.0F, 1.6e9)));
   ASSERT_EQ(sweep.points.size(), 2U);
   EXPECT_EQ(sweep.utime, kUtime);
@@ -143,13 +137,13 @@ TEST(RosPointCloud, RowsMayBePadded) {
 TEST(RosPointCloud, SaysWhatIsWrong) {
   const std::string point = VelodynePoint(1, 0, 0);
   const std::string good = RosPointCloudBytes(kUtime, "v", kVelodyneFields, 28, point);
-  EXPECT_EQ(ErrorOf(good), "");
-  EXPECT_THAT(ErrorOf(good + "x"), HasSubstr("1 bytes more"));
-  EXPECT_THAT(ErrorOf(good.substr(0, good.size() - 9)), HasSubstr("shorter"));
-  EXPECT_THAT(ErrorOf(RosPointCloudBytes(kUtime, "v", {{"x", 25}}, 28, point)), HasSubstr("field x beyond"));
-  EXPECT_THAT(ErrorOf(RosPointCloudBytes(kUtime, "v", {{"x", 0}, {"x", 4}}, 28, point)), HasSubstr("x twice"));
-  EXPECT_THAT(ErrorOf(RosPointCloudBytes(kUtime, "v", {{"x", 0}, {"y", 4}}, 28, point)), HasSubstr("without z"));
-  EXPECT_THAT(ErrorOf(RosPointCloudBytes(kUtime, "v", {{"x", 0, static_cast<RosField::Type>(9)}}, 28, point)),
+  EXPECT_EQ(RefusalOf(good), "");
+  EXPECT_THAT(RefusalOf(good + "x"), HasSubstr("1 bytes more"));
+  EXPECT_THAT(RefusalOf(good.substr(0, good.size() - 9)), HasSubstr("shorter"));
+  EXPECT_THAT(RefusalOf(RosPointCloudBytes(kUtime, "v", {{"x", 25}}, 28, point)), HasSubstr("field x beyond"));
+  EXPECT_THAT(RefusalOf(RosPointCloudBytes(kUtime, "v", {{"x", 0}, {"x", 4}}, 28, point)), HasSubstr("x twice"));
+  EXPECT_THAT(RefusalOf(RosPointCloudBytes(kUtime, "v", {{"x", 0}, {"y", 4}}, 28, point)), HasSubstr("without z"));
+  EXPECT_THAT(RefusalOf(RosPointCloudBytes(kUtime, "v", {{"x", 0, static_cast<RosField::Type>(9)}}, 28, point)),
               HasSubstr("unknown type 9"));
 }
 
@@ -163,7 +157,7 @@ TEST(RosPointCloud, MutatedBytesAreRefusedOrRead) {
     std::string bytes = good;
     for (unsigned n = 1 + random() % 3; n > 0; --n) bytes[random() % bytes.size()] = static_cast<char>(random());
     if (random() % 10 == 0) bytes.resize(random() % bytes.size());
-    const std::string error = ErrorOf(bytes);
+    const std::string error = RefusalOf(bytes);
     EXPECT_EQ(error.find('\n'), std::string::npos);
     refused += error.empty() ? 0 : 1;
   }
@@ -173,12 +167,12 @@ TEST(RosPointCloud, MutatedBytesAreRefusedOrRead) {
 
 TEST(RosImu, ReadsRatesAndForces) {
   const std::string bytes = RosImuBytes(kUtime, "imu", {0.1, 0.2, 0.3}, {1, 2, 9.8});
-  const ImuSample sample = DecodeRosImu(Span(bytes));
+  const ImuSample sample = DecodeRosImu(AsBytes(bytes));
   EXPECT_EQ(sample.utime, kUtime);
   EXPECT_EQ(sample.angular_velocity_radps, Eigen::Vector3d(0.1, 0.2, 0.3));
   EXPECT_EQ(sample.specific_force_mps2, Eigen::Vector3d(1, 2, 9.8));
   for (size_t size = 0; size < bytes.size(); size += 7)
-    EXPECT_THROW((void)DecodeRosImu(Span(bytes).first(size)), BadInput) << size;
+    EXPECT_THROW((void)DecodeRosImu(AsBytes(bytes).first(size)), BadInput) << size;
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/angles.h"
-#include "sensors/bad_input.h"
 #include "sensors/velodyne_assembler.h"
+#include "support/error_of.h"
 #include "support/velodyne_builder.h"
 
 namespace lcmslam {
@@ -24,13 +24,8 @@ VelodyneBuilder Turning(int first = 1000) {
   return builder;
 }
 
-std::string ErrorOf(const std::vector<uint8_t>& bytes) {
-  try {
-    (void)DecodeVelodynePacket(bytes);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+std::string RefusalOf(const std::vector<uint8_t>& bytes) {
+  return ErrorOf([&] { (void)DecodeVelodynePacket(bytes); });
 }
 
 // One shot, placed with the manual's formulas.
@@ -115,23 +110,23 @@ TEST(VelodynePacket, DualReturns) {
 }
 
 TEST(VelodynePacket, RefusesWhatItIsNot) {
-  EXPECT_EQ(ErrorOf(Turning().Bytes()), "");
-  EXPECT_THAT(ErrorOf({}), HasSubstr("0 bytes where 1206"));
+  EXPECT_EQ(RefusalOf(Turning().Bytes()), "");
+  EXPECT_THAT(RefusalOf({}), HasSubstr("0 bytes where 1206"));
   VelodyneBuilder builder = Turning();
   builder.azimuths[7] = 36'000;
-  EXPECT_THAT(ErrorOf(builder.Bytes()), HasSubstr("azimuth"));
+  EXPECT_THAT(RefusalOf(builder.Bytes()), HasSubstr("azimuth"));
   builder = Turning();
   builder.mode = 0x40;
-  EXPECT_THAT(ErrorOf(builder.Bytes()), HasSubstr("return mode 0x40"));
+  EXPECT_THAT(RefusalOf(builder.Bytes()), HasSubstr("return mode 0x40"));
   builder = Turning();
   builder.product = 0x28;
-  EXPECT_THAT(ErrorOf(builder.Bytes()), HasSubstr("product 0x28"));
+  EXPECT_THAT(RefusalOf(builder.Bytes()), HasSubstr("product 0x28"));
   builder = Turning();
   builder.stamp_us = 3'600'000'000;
-  EXPECT_THAT(ErrorOf(builder.Bytes()), HasSubstr("hour"));
+  EXPECT_THAT(RefusalOf(builder.Bytes()), HasSubstr("hour"));
   std::vector<uint8_t> bytes = Turning().Bytes();
   bytes[100] = 0xDD;
-  EXPECT_THAT(ErrorOf(bytes), HasSubstr("block flag"));
+  EXPECT_THAT(RefusalOf(bytes), HasSubstr("block flag"));
 }
 
 // Packets of a head at 10 Hz: 1327.104 us and 4.78 degrees each.
