@@ -185,7 +185,7 @@ RegistrationResult Pipeline::ReconsiderStart(const TimedPatches& patches, const 
   }
   // More patches that fit, and more closely.
   const auto score = [](const RegistrationResult& r) {
-    return Fit(r) / (r.normalised_residual * r.normalised_residual);
+    return Fit(r) / (r.normalized_residual * r.normalized_residual);
   };
   began_anew = IsGood(registration) && score(registration) > score(from_rest);
   if (began_anew) return registration;
@@ -197,7 +197,7 @@ bool Pipeline::IsGood(const RegistrationResult& registration) const {
   const TrustOptions& trust = options_.trust;
   return registration.status != RegistrationStatus::kTooFewPatches && registration.matched >= trust.min_patches &&
          registration.inlier_ratio >= trust.min_inlier_ratio &&
-         registration.normalised_residual <= trust.max_residual && registration.belief.mean.T_map_body.IsFinite();
+         registration.normalized_residual <= trust.max_residual && registration.belief.mean.T_map_body.IsFinite();
 }
 
 bool Pipeline::MovedEnough() const {

@@ -45,7 +45,7 @@ ConstraintFit PlaneConstraints::AddTo(SweepInformation& information, const PoseT
     const std::span<Constraint> batch(&constraints_[first], size);
     Locate(batch);
     AssociateMoved(batch, patches_.subspan(first, size));
-    const size_t num_equations = Linearise(batch, static_cast<float>(kernel_floor_m), fit);
+    const size_t num_equations = Linearize(batch, static_cast<float>(kernel_floor_m), fit);
     for (const Equation& e : std::span(equations_).first(num_equations)) {
       information.Add(e.slot, e.normal, e.moment, e.residual, e.weight);
     }
@@ -99,7 +99,7 @@ void PlaneConstraints::Associate(Constraint& c, const Patch& patch, const PlaneM
 }
 
 // Returns how many equations there are.
-size_t PlaneConstraints::Linearise(std::span<const Constraint> batch, float kernel_floor_m, ConstraintFit& fit) {
+size_t PlaneConstraints::Linearize(std::span<const Constraint> batch, float kernel_floor_m, ConstraintFit& fit) {
   size_t size = 0;
   for (size_t k = 0; k < batch.size(); ++k) {
     const Constraint& c = batch[k];
@@ -113,7 +113,7 @@ size_t PlaneConstraints::Linearise(std::span<const Constraint> batch, float kern
     const float square = inlier ? residual * residual : 0.0F;
     fit.inliers += inlier;
     fit.squares += square;
-    fit.normalised += square / (c.sigma * c.sigma);
+    fit.normalized += square / (c.sigma * c.sigma);
   }
   fit.matched += static_cast<int>(size);
   return size;

@@ -21,7 +21,7 @@ struct ConstraintFit {
   int matched = 0;  // patches that met a surfel
   int inliers = 0;
   double squares = 0.0;     // m^2, over the inliers: sum of the squared residuals
-  double normalised = 0.0;  // and in standard deviations of a point
+  double normalized = 0.0;  // and in standard deviations of a point
 };
 
 // The patches of one sweep, each with the plane of the map it is measured against. Keeps a plane until its patch has
@@ -32,7 +32,7 @@ class PlaneConstraints {
   PlaneConstraints(const SurfelMap& map, std::span<const Patch> patches, const RegistrationOptions& options,
                    const Eigen::Vector3d& origin);
 
-  // Linearises all constraints at these poses. Weight: information of the patch's height times Geman-McClure of the
+  // Linearizes all constraints at these poses. Weight: information of the patch's height times Geman-McClure of the
   // residual, whose kernel is wider by kernel_floor_m than the noise asks for.
   ConstraintFit AddTo(SweepInformation& information, const PoseTable& poses, double kernel_floor_m);
 
@@ -64,7 +64,7 @@ class PlaneConstraints {
   void Locate(std::span<const Constraint> batch);
   void AssociateMoved(std::span<Constraint> batch, std::span<const Patch> patches);
   void Associate(Constraint& constraint, const Patch& patch, const PlaneMatch& plane) const;
-  size_t Linearise(std::span<const Constraint> batch, float kernel_floor_m, ConstraintFit& fit);
+  size_t Linearize(std::span<const Constraint> batch, float kernel_floor_m, ConstraintFit& fit);
 
   static constexpr size_t kBatch = 64;  // stays in the fastest cache
 

@@ -17,7 +17,7 @@ using Matrix24 = Eigen::Matrix<double, 24, 24>;
 using Vector24 = Eigen::Matrix<double, 24, 1>;
 
 // The information about `to` alone: Schur complement.
-Matrix12 MarginaliseFrom(const Matrix24& H) {
+Matrix12 MarginalizeFrom(const Matrix24& H) {
   const Matrix12 H_to_from = H.bottomLeftCorner<12, 12>();
   const Matrix12 schur =
       H.bottomRightCorner<12, 12>() - H_to_from * H.topLeftCorner<12, 12>().ldlt().solve(H_to_from.transpose());
@@ -41,7 +41,7 @@ class Registrar {
     for (result_.iterations = 1; result_.iterations <= options_.max_iterations; ++result_.iterations) {
       const double sweep_us = 1e6 * sweep_.duration_s;
       const PoseTable poses(slots_, [&](double dt_us) { return result_.motion.At(1.0 + dt_us / sweep_us); });
-      Linearise(poses);
+      Linearize(poses);
       if (result_.matched < kMinMatches) break;
       const bool small = Step();
       const bool narrow = kernel_floor_m_ <= 0.0;
@@ -53,16 +53,16 @@ class Registrar {
       result_.status = RegistrationStatus::kIterationLimit;
     }
     result_.iterations = std::min(result_.iterations, options_.max_iterations);
-    Summarise();
+    Summarize();
     return result_;
   }
 
  private:
   void Predict();
-  void Linearise(const PoseTable& poses);
+  void Linearize(const PoseTable& poses);
   void AddPriors(Matrix24& H, Vector24& b) const;
   bool Step();
-  void Summarise();
+  void Summarize();
 
   static constexpr int kMinMatches = 12;  // twice the unknowns of a pose
   static constexpr double kNarrowM = 0.02;
@@ -86,7 +86,7 @@ void Registrar::Predict() {
   Matrix24 H = Matrix24::Zero();
   Vector24 b = Vector24::Zero();
   AddPriors(H, b);
-  result_.prediction = {result_.motion.to(), MarginaliseFrom(H)};
+  result_.prediction = {result_.motion.to(), MarginalizeFrom(H)};
 
   // How far off the prediction may be decides how far the first look reaches.
   const Vector6 spread = result_.prediction.information.ldlt().solve(Matrix12::Identity()).diagonal().head<6>();
@@ -95,13 +95,13 @@ void Registrar::Predict() {
   result_.motion = guess_;
 }
 
-void Registrar::Linearise(const PoseTable& poses) {
+void Registrar::Linearize(const PoseTable& poses) {
   measured_.Clear();
   const ConstraintFit fit = constraints_.AddTo(measured_, poses, kernel_floor_m_);
   result_.matched = fit.matched;
   result_.inlier_ratio = fit.matched > 0 ? static_cast<double>(fit.inliers) / fit.matched : 0.0;
   result_.residual_m = fit.inliers > 0 ? std::sqrt(fit.squares / fit.inliers) : 0.0;
-  result_.normalised_residual = fit.inliers > 0 ? std::sqrt(fit.normalised / fit.inliers) : 0.0;
+  result_.normalized_residual = fit.inliers > 0 ? std::sqrt(fit.normalized / fit.inliers) : 0.0;
 }
 
 void Registrar::AddPriors(Matrix24& H, Vector24& b) const {
@@ -141,12 +141,12 @@ bool Registrar::Step() {
   return -delta.dot(b) < options_.step_sigmas * options_.step_sigmas;
 }
 
-void Registrar::Summarise() {
+void Registrar::Summarize() {
   if (result_.status == RegistrationStatus::kTooFewPatches) {
     result_.belief = result_.prediction;
     return;
   }
-  result_.belief = {result_.motion.to(), MarginaliseFrom(H_)};
+  result_.belief = {result_.motion.to(), MarginalizeFrom(H_)};
   result_.measured = measured_.Total();
   result_.unobservable = UnobservableDirections(result_.measured, options_.min_direction_share);
 }

@@ -29,7 +29,7 @@ enum class RegistrationStatus { kConverged, kIterationLimit, kTooFewPatches };
 struct RegistrationResult {
   RegistrationStatus status = RegistrationStatus::kTooFewPatches;
   MotionSegment motion;                // over the sweep; the prediction when there were too few patches
-  StateBelief belief;                  // of motion.to(), with `from` marginalised out
+  StateBelief belief;                  // of motion.to(), with `from` marginalized out
   StateBelief prediction;              // the same without the sweep's points
   Matrix6 measured = Matrix6::Zero();  // the sweep's own information about its pose: translation, rotation
   Directions unobservable{6, 0};       // what the sweep does not show
@@ -37,7 +37,7 @@ struct RegistrationResult {
   int matched = 0;                   // patches that met a surfel
   double inlier_ratio = 0.0;         // of the matched: residual within the kernel
   double residual_m = 0.0;           // rms of the inliers
-  double normalised_residual = 0.0;  // weighted rms over its prediction: about 1 when all is well
+  double normalized_residual = 0.0;  // weighted rms over its prediction: about 1 when all is well
 };
 
 // A sweep's patches with their time: first_dt_us as in TimeSlots, duration from the last state to the sweep's end.

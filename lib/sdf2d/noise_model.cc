@@ -6,7 +6,7 @@
 namespace lcmslam::sdf2d {
 namespace {
 
-constexpr int kStride = 3;            // beams between the three; neighbours share quantisation and spot overlap
+constexpr int kStride = 3;            // beams between the three; neighbours share quantization and spot overlap
 constexpr size_t kEvery = 2;          // triples looked at
 constexpr double kMaxRatio = 1.3;     // of ranges within a triple; beyond lies an edge
 constexpr double kForget = 0.97;      // per scan

@@ -119,7 +119,7 @@ bool FitLine(std::span<const Ray> rays, const Vector2d& origin, double min_cos, 
       const double u = round == 0 ? 1.0 / ray.range_m : m.dot(ray.direction);
       if (!(u > 0.0)) return false;
       const double w = 1.0 / (u * u * u * u * ray.sigma_m * ray.sigma_m);
-      // The inverse range measured, linearised on the current line.
+      // The inverse range measured, linearized on the current line.
       const double measured = round == 0 ? u : u * (2.0 - ray.range_m * u);
       H += w * ray.direction * ray.direction.transpose();
       b += w * measured * ray.direction;

@@ -25,7 +25,7 @@ struct SurfaceLine {
 //   1/r = m.u(angle), m = n/d,
 // with noise that the range noise tells and angles that have none: unlike total least squares on points, this does not
 // tilt walls towards the beam when noise is large. A run of beams is cut where two lines explain it better than one by
-// split_chi2, and the pieces are fitted once more with the noise linearised on the fitted line (maximum likelihood).
+// split_chi2, and the pieces are fitted once more with the noise linearized on the fitted line (maximum likelihood).
 // p_body: end points in beam order, deskewed; finite. Pieces too short or too oblique to be trusted are left out. Pure.
 [[nodiscard]] std::vector<SurfaceLine> ExtractSurface(std::span<const Eigen::Vector2d> p_body,
                                                       const Eigen::Vector2d& origin_body, const NoiseModel& noise,

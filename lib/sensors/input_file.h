@@ -7,7 +7,7 @@
 
 namespace lcmslam {
 
-// The bytes of a file; gzip and bzip2 are recognised by their first bytes and unpacked on the way. Throws BadInput when
+// The bytes of a file; gzip and bzip2 are recognized by their first bytes and unpacked on the way. Throws BadInput when
 // the file cannot be opened; damaged compression ends in boost::iostreams errors, which derive from
 // std::ios_base::failure, thrown while reading.
 [[nodiscard]] std::unique_ptr<std::istream> OpenInput(const std::filesystem::path& path);

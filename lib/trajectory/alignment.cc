@@ -15,7 +15,7 @@ Eigen::JacobiSVD<Eigen::Matrix3d> Svd(const Eigen::Matrix3d& matrix) {
   return Eigen::JacobiSVD<Eigen::Matrix3d>(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
 }
 
-// Among Rot(axis, angle) * start, the rotation R that maximises trace(R^T correlation). `strength` is how much that
+// Among Rot(axis, angle) * start, the rotation R that maximizes trace(R^T correlation). `strength` is how much that
 // trace changes with the angle.
 struct TurnResult {
   Eigen::Matrix3d rotation;

@@ -37,7 +37,7 @@ struct Alignment {
   std::vector<Eigen::Vector3d> unobservable_axes = {};
 };
 
-// The rigid transform, without scale, that minimises sum |p_reference - T_world_map p_estimate|^2 in closed form
+// The rigid transform, without scale, that minimizes sum |p_reference - T_world_map p_estimate|^2 in closed form
 // (Umeyama 1991; in yaw, Horn's planar case). Poses are finite. Pure.
 [[nodiscard]] Alignment Align(std::span<const PosePair> pairs, AlignmentKind kind,
                               const AlignmentOptions& options = {});
@@ -45,7 +45,7 @@ struct Alignment {
 [[nodiscard]] Alignment Align(const PairMoments& moments, const PosePair& first, AlignmentKind kind,
                               const AlignmentOptions& options = {});
 
-// The rotation R that maximises trace(R^T correlation) (Kabsch 1976; Umeyama 1991, eq. 40-43): of a sum of rotations
+// The rotation R that maximizes trace(R^T correlation) (Kabsch 1976; Umeyama 1991, eq. 40-43): of a sum of rotations
 // their mean. Finite.
 [[nodiscard]] Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& correlation);
 

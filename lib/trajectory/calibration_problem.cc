@@ -212,9 +212,9 @@ CalibrationProblem::Deviations CalibrationProblem::StandardDeviations() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNullEigenvalue = 1e-10, kNullShare = 1e-3;
   const Eigen::VectorXd scale = information_.diagonal().cwiseMax(1e-60).cwiseSqrt();
-  const Eigen::MatrixXd normalised =
+  const Eigen::MatrixXd normalized =
       scale.cwiseInverse().asDiagonal() * information_ * scale.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normalised);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normalized);
   Deviations variance = Deviations::Zero();
   for (Eigen::Index j = 0; j < eigen.eigenvalues().size(); ++j) {
     const bool is_null = eigen.eigenvalues()[j] < kNullEigenvalue;

@@ -13,7 +13,7 @@ namespace lcmslam {
 struct LocalMotion {
   // Columns: constant, linear and quadratic coefficient in s = (t - moment) / half_width.
   Eigen::Matrix3d position = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 4, 3> quaternion = Eigen::Matrix<double, 4, 3>::Zero();  // rows x, y, z, w; to be normalised
+  Eigen::Matrix<double, 4, 3> quaternion = Eigen::Matrix<double, 4, 3>::Zero();  // rows x, y, z, w; to be normalized
   double half_width_s = 0.0;
 };
 

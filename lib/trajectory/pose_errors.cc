@@ -9,7 +9,7 @@
 namespace lcmslam {
 namespace {
 
-// from^-1 * to, without a normalisation that nothing here needs: this runs many times a pose.
+// from^-1 * to, without a normalization that nothing here needs: this runs many times a pose.
 Pose3 Motion(const Pose3& from, const Pose3& to) {
   const Eigen::Quaterniond to_body = from.rotation.conjugate();
   return {to_body * (to.translation - from.translation), to_body * to.rotation};

@@ -99,7 +99,7 @@ constexpr Format kPlanar{"planar", 4, false, "timestamp x y yaw", ParseSeconds, 
 constexpr Format kEuroc{"EuRoC", 8, true, "timestamp,px,py,pz,qw,qx,qy,qz", ParseNanoseconds, ParseEurocPose};
 constexpr Format kKitti{"KITTI", 12, false, "a row-major 3x4 matrix", nullptr, ParseKittiPose};
 
-const Format* Recognise(const TextLines& lines) {
+const Format* Recognize(const TextLines& lines) {
   const size_t columns = lines.fields().size();
   if (lines.has_comma()) return columns >= kEuroc.columns ? &kEuroc : nullptr;
   for (const Format* format : {&kTum, &kPlanar, &kKitti}) {
@@ -121,7 +121,7 @@ const Format* FormatOf(TrajectoryFormat format, const TextLines& lines) {
     case TrajectoryFormat::kAuto:
       break;
   }
-  return Recognise(lines);
+  return Recognize(lines);
 }
 
 // The stamps of KITTI poses, which stand in a file of their own or are counted up.

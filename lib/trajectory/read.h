@@ -28,7 +28,7 @@ struct TrajectoryFile {
 
 // Reads a trajectory of text lines; # starts a comment line. An error is: a file that does not open or holds no pose,
 // another number of columns, a number that is not finite, stamps that do not increase (at 1 us), a quaternion more
-// than 5 % off unit length or a matrix more than 1 % off a rotation; smaller deviations are normalised away.
+// than 5 % off unit length or a matrix more than 1 % off a rotation; smaller deviations are normalized away.
 [[nodiscard]] TrajectoryFile ReadTrajectory(const std::filesystem::path& path, const ReadOptions& options = {});
 
 }  // namespace lcmslam

@@ -33,7 +33,7 @@ struct PoseSources {
 // Two files, read at the same time.
 PoseSources ReadPoseFiles(const std::filesystem::path& estimate, const std::filesystem::path& reference,
                           const ReadOptions& options);
-// The patterns are regular expressions for one channel each; poses are recognised by fingerprint. An empty pattern
+// The patterns are regular expressions for one channel each; poses are recognized by fingerprint. An empty pattern
 // reads nothing.
 PoseSources ReadPoseChannels(const std::filesystem::path& log, const std::string& estimate_pattern,
                              const std::string& reference_pattern, bool quiet);

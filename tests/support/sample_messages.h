@@ -6,7 +6,7 @@
 
 namespace lcmslam {
 
-// A well-formed message with random contents; arrays and strings of random length. Specialised for every type of
+// A well-formed message with random contents; arrays and strings of random length. Specialized for every type of
 // lcmtypes.
 template <class M>
 M RandomMessage(std::mt19937_64& random);

@@ -128,7 +128,7 @@ TEST(Cloud3dPipeline, SaysWhenItIsLostAndFindsBack) {
   EXPECT_EQ(pipeline.Process(episode.Frame(3).sweep).status, Status::kLost);
 }
 
-TEST(Cloud3dPipeline, ResetForgetsAndLocalisingWritesNothing) {
+TEST(Cloud3dPipeline, ResetForgetsAndLocalizingWritesNothing) {
   const SpatialEpisode episode = Episode(1.0);
   Pipeline pipeline{Options{}};
   (void)pipeline.Process(episode.Frame(0).sweep);

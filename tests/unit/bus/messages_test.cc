@@ -70,7 +70,7 @@ TEST(Messages, BeamTimesThatAreNoneAreUnknown) {
   }
 }
 
-TEST(Messages, BotCoreScanIsRecognised) {
+TEST(Messages, BotCoreScanIsRecognized) {
   planar_lidar_t message{};
   message.utime = 7;
   message.nranges = 3;

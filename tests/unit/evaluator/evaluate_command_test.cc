@@ -72,7 +72,7 @@ TEST(Evaluate, EstimateOfALogAgainstAFile) {
   EXPECT_THAT(run.out, HasSubstr("absolute             m         0.02000"));
 }
 
-TEST(Evaluate, MBotsPlanarPoseIsRecognised) {
+TEST(Evaluate, MBotsPlanarPoseIsRecognized) {
   const TemporaryFile log, json;
   LogWriter writer(log.path());
   for (const StampedPose& p : Reference()) {

@@ -123,7 +123,7 @@ TEST(Align, CovarianceIsConsistent) {
     const Eigen::Matrix3d covariance = result.state.covariance.topLeftCorner<3, 3>();
     sum += error.dot(covariance.inverse() * error);
   }
-  EXPECT_NEAR(sum / kTrials, 3.0, 1.0) << "mean normalised squared error of three dimensions";
+  EXPECT_NEAR(sum / kTrials, 3.0, 1.0) << "mean normalized squared error of three dimensions";
 }
 
 TEST(Align, CorridorHoldsItsDirectionByPrediction) {
