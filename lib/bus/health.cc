@@ -74,15 +74,22 @@ void Health::CountMissing(std::string_view channel, int64_t messages) {
 }
 
 void Health::NoteInput(std::string_view channel, int64_t utime) {
-  auto gap = gaps_.find(channel);
-  if (gap == gaps_.end()) gap = gaps_.emplace(std::string(channel), GapCounter()).first;
-  CountMissing(channel, gap->second.Missing(utime));
-  NoteStamp(utime);
+  Input& input = InputOf(channel);
+  CountMissing(channel, input.gap.Missing(utime));
+  NoteStamp(input, utime);
 }
 
-void Health::NoteStamp(int64_t utime) {
+void Health::NoteStamp(int64_t utime) { NoteStamp(InputOf(""), utime); }
+
+Health::Input& Health::InputOf(std::string_view channel) {
+  auto input = inputs_.find(channel);
+  if (input == inputs_.end()) input = inputs_.emplace(std::string(channel), Input()).first;
+  return input->second;
+}
+
+void Health::NoteStamp(Input& input, int64_t utime) {
   input_utime_ = utime;
-  pace_.Note(utime, arrival_utime_, now_utime_);
+  input.pace.Note(utime, arrival_utime_, now_utime_);
 }
 
 void Health::BeginEvent(int64_t arrival_utime, int64_t now_utime) {
@@ -93,6 +100,22 @@ void Health::BeginEvent(int64_t arrival_utime, int64_t now_utime) {
 void Health::NoteLatency(double latency_ms, double busy_ms) {
   latencies_ms_.push_back(latency_ms);
   busy_ms_ += busy_ms;
+}
+
+// Silence of all inputs, else of those that come the first that is slow or fast.
+InputPaceReport Health::ReportPace(int64_t now_utime) {
+  InputPaceReport noteworthy, least_silent;
+  size_t silent = 0;
+  for (auto& [channel, input] : inputs_) {
+    const InputPaceReport report = input.pace.Report(now_utime);
+    if (report.silent_s > 0.0) {
+      if (silent == 0 || report.silent_s < least_silent.silent_s) least_silent = report;
+      ++silent;
+    } else if ((report.IsSlow() || report.IsFast()) && !(noteworthy.IsSlow() || noteworthy.IsFast())) {
+      noteworthy = report;
+    }
+  }
+  return silent == inputs_.size() ? least_silent : noteworthy;
 }
 
 int8_t Health::State() const {
@@ -123,7 +146,7 @@ std::string Health::Complaint() const {
 }
 
 service_status_t Health::Report(int64_t utime, bool wall_clock) {
-  if (wall_clock) pace_report_ = pace_.Report(utime);
+  if (wall_clock) pace_report_ = ReportPace(utime);
   service_status_t status{};
   status.utime = utime;
   status.input_utime = input_utime_;

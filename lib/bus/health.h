@@ -61,6 +61,15 @@ class Health {
   std::string Summary() const;
 
  private:
+  // Of one channel, or of all whose gaps are counted elsewhere.
+  struct Input {
+    GapCounter gap;
+    InputPace pace;
+  };
+
+  Input& InputOf(std::string_view channel);
+  void NoteStamp(Input& input, int64_t utime);
+  InputPaceReport ReportPace(int64_t now_utime);
   int8_t State() const;
   // What State() is about, for people: "4 missing on LIDAR_2D"; empty when there is nothing to say.
   std::string Complaint() const;
@@ -74,11 +83,10 @@ class Health {
   int64_t reported_loss_ = 0;
   int64_t input_utime_ = 0, reported_input_utime_ = 0;
   int64_t arrival_utime_ = 0, now_utime_ = 0;  // of the event in hand
-  InputPace pace_;
   InputPaceReport pace_report_;
   double busy_ms_ = 0.0;
   std::vector<double> latencies_ms_;
-  std::map<std::string, GapCounter, std::less<>> gaps_;
+  std::map<std::string, Input, std::less<>> inputs_;        // by channel; those without a name under ""
   std::map<std::string, int64_t, std::less<>> missing_on_;  // by channel; only where some are
 };
 

@@ -10,7 +10,7 @@ namespace {
 constexpr int64_t kSilentUs = 500'000;         // for an input of 6 Hz or more; for a slower one
 constexpr int64_t kSilentPeriods = 3;          // of its own periods
 constexpr int64_t kClockStepUs = 10'000'000;   // not the pace of an input, but a clock that was set
-constexpr int64_t kOtherSenderUs = 1'000'000;  // inputs of several channels need not come in the order of their stamps
+constexpr int64_t kOtherSenderUs = 1'000'000;  // inputs of several senders need not come in the order of their stamps
 constexpr int64_t kComparableUs = 200'000;     // what arrives in one go says nothing of its pace
 
 }  // namespace

@@ -98,6 +98,30 @@ TEST(Health, SaysHowSlowOrFastTheInputComes) {
   EXPECT_EQ(report_after_second(10, 100'000).text, "");
 }
 
+// A flood of two channels, of which one lags seconds of stamps behind the other.
+TEST(Health, ALaggingChannelDoesNotHideThePace) {
+  Health health("x");
+  health.CountProcessed();
+  for (int64_t i = 0; i < 200; ++i) {
+    health.BeginEvent(1'000'000 + 5'000 * i, 1'000'000 + 5'000 * i);
+    health.NoteInput("TRUTH", 100'000'000 + 100'000 * i);
+    health.NoteInput("ESTIMATE", 95'000'000 + 100'000 * i);
+  }
+  EXPECT_EQ(health.Report(2'000'000, true).text, "input at 20.0 times real time, 200 Hz");
+}
+
+TEST(Health, SilentOnlyWhenAllInputsAre) {
+  Health health("x");
+  health.CountProcessed();
+  for (int64_t i = 0; i < 30; ++i) {
+    health.BeginEvent(1'000'000 + 100'000 * i, 1'000'000 + 100'000 * i);
+    health.NoteInput("TRUTH", 100'000 * i);
+    if (i < 10) health.NoteInput("ESTIMATE", 100'000 * i);
+  }
+  EXPECT_EQ(health.Report(4'000'000, true).text, "");
+  EXPECT_EQ(health.Report(5'000'000, true).text, "no input for 1.1 s");
+}
+
 TEST(Health, WithoutWallClockNothingVaries) {
   Health health("x");
   health.NoteLatency(3.0, 2.0);
