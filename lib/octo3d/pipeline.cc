@@ -59,9 +59,10 @@ double MotionOfPoints(const MotionState& state, double duration_s) {
 }
 
 // Whether motion would show, and what shows means nothing beside its uncertainty.
-bool IsAtRest(const MotionState& before, const RegistrationResult& registration) {
+bool IsAtRest(const MotionState& before, const RegistrationResult& registration, double min_direction_share) {
   const Vector12 motion = Difference(registration.belief.mean, before);
-  return registration.unobservable.cols() == 0 && motion.dot(registration.belief.information * motion) < kRestChi2;
+  return UnobservableDirections(registration.measured, min_direction_share).cols() == 0 &&
+         motion.dot(registration.belief.information * motion) < kRestChi2;
 }
 
 // Nothing moves on for ever unseen.
@@ -162,7 +163,7 @@ RegistrationResult Pipeline::ReconsiderStart(const TimedPatches& patches, const 
   const Sweep first = *std::exchange(first_, std::nullopt);
   const double first_s = SweepDuration(first);
   if (options_.localize_only || patches.duration_s >= options_.trust.max_gap_s) return from_rest;
-  if (IsGood(from_rest) && IsAtRest(belief_.mean, from_rest)) {
+  if (IsGood(from_rest) && IsAtRest(belief_.mean, from_rest, options_.registration.min_direction_share)) {
     TrustOptions rest = options_.trust;
     rest.initial_speed_mps = std::min(rest.initial_speed_mps, kRestSpeedMps);
     rest.initial_rate_radps = std::min(rest.initial_rate_radps, kRestRadps);

@@ -15,6 +15,11 @@ constexpr float kReuseM = 0.01F;       // a patch that moved less keeps its plan
 
 float Square(double v) { return static_cast<float>(v * v); }
 
+// Skew(a) b = a x b
+Eigen::Matrix3d Skew(const Eigen::Vector3d& a) {
+  return (Eigen::Matrix3d() << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0).finished();
+}
+
 }  // namespace
 
 PlaneConstraints::PlaneConstraints(const SurfelMap& map, std::span<const Patch> patches,
@@ -96,6 +101,14 @@ void PlaneConstraints::Associate(Constraint& c, const Patch& patch, const PlaneM
   const float plane_var = static_cast<float>(plane.variance) + model_var_;
   c.sigma = std::sqrt(range_var_ + plane_var);
   c.information = 1.0F / (c.mean_var + plane_var);
+  c.tilt_var = static_cast<float>(plane.tilt_variance);
+}
+
+// A patch at the border of its surface may hold one side of the noise only: judge it by the noise of single points.
+float PlaneConstraints::Weight(const Constraint& c, float residual, float kernel_floor_m) const {
+  const float kernel = kernel_ * c.sigma + kernel_floor_m;
+  const float ratio = kernel * kernel / (kernel * kernel + residual * residual);
+  return ratio * ratio * c.information;
 }
 
 // Returns how many equations there are.
@@ -105,10 +118,8 @@ size_t PlaneConstraints::Linearize(std::span<const Constraint> batch, float kern
     const Constraint& c = batch[k];
     if (c.information <= 0.0F) continue;
     const float residual = c.plane.dot(places_[k].local);
-    // A patch at the border of its surface may hold one side of the noise only: judge it by the noise of single points.
-    const float kernel = kernel_ * c.sigma + kernel_floor_m;
-    const float ratio = kernel * kernel / (kernel * kernel + residual * residual);
-    equations_[size++] = {c.plane, places_[k].lever.cross3(c.plane), residual, ratio * ratio * c.information, c.slot};
+    equations_[size++] = {c.plane, places_[k].lever.cross3(c.plane), residual, Weight(c, residual, kernel_floor_m),
+                          c.slot};
     const bool inlier = std::abs(residual) < kInlier * c.sigma + kernel_floor_m;
     const float square = inlier ? residual * residual : 0.0F;
     fit.inliers += inlier;
@@ -117,6 +128,25 @@ size_t PlaneConstraints::Linearize(std::span<const Constraint> batch, float kern
   }
   fit.matched += static_cast<int>(size);
   return size;
+}
+
+// J = M n with M = (I, [lever]x). A normal that is off by noise of variance v along its plane adds v M (I - n n^T) M^T.
+Matrix6 PlaneConstraints::NoiseOfNormals(double kernel_floor_m) {
+  Matrix6 noise = Matrix6::Zero();
+  for (size_t first = 0; first < constraints_.size(); first += kBatch) {
+    const std::span<const Constraint> batch(&constraints_[first], std::min(kBatch, constraints_.size() - first));
+    Locate(batch);
+    for (size_t k = 0; k < batch.size(); ++k) {
+      const Constraint& c = batch[k];
+      if (c.information <= 0.0F) continue;
+      const float weight = Weight(c, c.plane.dot(places_[k].local), static_cast<float>(kernel_floor_m));
+      const Eigen::Vector3d n = c.plane.head<3>().cast<double>(), lever = places_[k].lever.head<3>().cast<double>();
+      Eigen::Matrix<double, 6, 3> M;
+      M << Eigen::Matrix3d::Identity(), Skew(lever);
+      noise += weight * c.tilt_var * (M * M.transpose() - (M * n) * (M * n).transpose());
+    }
+  }
+  return noise;
 }
 
 }  // namespace lcmslam::octo3d

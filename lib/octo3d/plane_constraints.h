@@ -36,6 +36,10 @@ class PlaneConstraints {
   // residual, whose kernel is wider by kernel_floor_m than the noise asks for.
   ConstraintFit AddTo(SweepInformation& information, const PoseTable& poses, double kernel_floor_m);
 
+  // How much of the information of the last AddTo() to expect from the noise of the planes' normals alone: the walls of
+  // a room, a little tilted each in its own way, seem to tell of height.
+  Matrix6 NoiseOfNormals(double kernel_floor_m);
+
  private:
   // One cache line.
   struct alignas(64) Constraint {
@@ -46,6 +50,7 @@ class PlaneConstraints {
     float max_across_var = 0.0F;  // m^2, of the patch's points across a plane that it lies flat on
     float sigma = 0.0F;           // m, of a single point over the plane
     float information = 0.0F;     // 1/m^2, of the patch's height over the plane; 0: no plane
+    float tilt_var = 0.0F;        // rad^2, of the plane's normal
     uint16_t slot = 0;
   };
   static_assert(sizeof(Constraint) == 64);
@@ -64,6 +69,7 @@ class PlaneConstraints {
   void Locate(std::span<const Constraint> batch);
   void AssociateMoved(std::span<Constraint> batch, std::span<const Patch> patches);
   void Associate(Constraint& constraint, const Patch& patch, const PlaneMatch& plane) const;
+  float Weight(const Constraint& constraint, float residual, float kernel_floor_m) const;
   size_t Linearize(std::span<const Constraint> batch, float kernel_floor_m, ConstraintFit& fit);
 
   static constexpr size_t kBatch = 64;  // stays in the fastest cache

@@ -63,6 +63,7 @@ class Registrar {
   void AddPriors(Matrix24& H, Vector24& b) const;
   bool Step();
   void Summarize();
+  Directions Unobservable();
 
   static constexpr int kMinMatches = 12;  // twice the unknowns of a pose
   static constexpr double kNarrowM = 0.02;
@@ -148,7 +149,17 @@ void Registrar::Summarize() {
   }
   result_.belief = {result_.motion.to(), MarginalizeFrom(H_)};
   result_.measured = measured_.Total();
-  result_.unobservable = UnobservableDirections(result_.measured, options_.min_direction_share);
+  result_.unobservable = Unobservable();
+}
+
+// What a sweep does not show, the noise of the normals shows a little: level beams on the walls of a room seem to tell
+// of height, a corridor's walls of its length.
+Directions Registrar::Unobservable() {
+  constexpr double kDoubtful = 30.0;  // times the least share: beyond, the noise is of no account
+  constexpr double kNoise = 4.0;      // how far the noise may exceed its expectation
+  const double share = options_.min_direction_share;
+  if (UnobservableDirections(result_.measured, kDoubtful * share).cols() == 0) return Directions(6, 0);
+  return UnobservableDirections(result_.measured, share, kNoise * constraints_.NoiseOfNormals(kernel_floor_m_));
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ MotionSegment PredictMotion(const StateBelief& from, const RelativeMotion& hint,
 //   sum_i w_i (n_i^T (T(t_i) p_i - q_i))^2 + |from - belief|^2 + |motion prior|^2 + |relative motion|^2,
 // w_i = Geman-McClure weight / (range noise / count + plane variance + model error). The kernel's width starts at what
 // the prediction leaves open and narrows to the noise. Directions the sweep does not observe (eigenvectors of its
-// information with less than min_direction_share) are reported; the priors hold them. Pure: same input, same output.
-// Starts from `guess`.
+// information with less than min_direction_share, after what the noise of the planes' normals adds to it) are reported;
+// the priors hold them. Pure: same input, same output. Starts from `guess`.
 [[nodiscard]] RegistrationResult Register(const SurfelMap& map, const TimedPatches& sweep, const StateBelief& from,
                                           const RelativeMotion& hint, const MotionSegment& guess,
                                           const RegistrationOptions& options);

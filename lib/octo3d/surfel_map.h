@@ -29,6 +29,7 @@ struct PlaneMatch {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, sign arbitrary
   double variance = 0.0;                             // m^2, of the plane's height at the point asked for
+  double tilt_variance = 0.0;                        // rad^2, of the normal, towards any side
 };
 
 // One leaf as it is stored: its statistics and the place it was last seen from.

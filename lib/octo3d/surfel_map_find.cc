@@ -89,7 +89,9 @@ void SurfelMap::Impl::FindBatch(std::span<const Eigen::Vector3d> points, std::sp
   FindOnPaths(others);
   for (const Query& query : queries) {
     if (query.best == nullptr) continue;
-    planes[query.index] = {true, query.best->mean.cast<double>(), query.best->normal.cast<double>(), query.best_score};
+    const CellPlane& plane = *query.best;
+    planes[query.index] = {true, plane.mean.cast<double>(), plane.normal.cast<double>(), query.best_score,
+                           plane.height_var * plane.per_extent};
   }
 }
 
@@ -104,7 +106,8 @@ PlaneMatch SurfelMap::Impl::FindNear(const Eigen::Vector3d& p, int level) const 
     const double distance2 = (plane.mean.cast<double>() - p).squaredNorm();
     if (distance2 >= nearest2) return;
     nearest2 = distance2;
-    nearest = {true, plane.mean.cast<double>(), plane.normal.cast<double>(), plane.height_var};
+    nearest = {true, plane.mean.cast<double>(), plane.normal.cast<double>(), plane.height_var,
+               plane.height_var * plane.per_extent};
   };
   const int step = 1 << level;
   for (int i = 0; i < 27; ++i) {

@@ -43,5 +43,16 @@ TEST(UnobservableDirections, NoneWhereNothingIsSeen) {
   EXPECT_EQ(UnobservableDirections(Matrix6::Zero(), 1e-3).cols(), 0);
 }
 
+TEST(UnobservableDirections, WhatMayBeNoiseIsNotSeen) {
+  Matrix6 information = InformationOf({{0, 1, 0}, {0, 0, 1}});
+  Matrix6 noise = Matrix6::Zero();
+  noise(0, 0) = 0.01 * information.topLeftCorner<3, 3>().trace();
+  information += noise;
+  EXPECT_EQ(UnobservableDirections(information, 1e-3).cols(), 0);
+  const Directions directions = UnobservableDirections(information, 1e-3, 2.0 * noise);
+  ASSERT_EQ(directions.cols(), 1);
+  EXPECT_GT(std::abs(directions(0, 0)), 0.999);
+}
+
 }  // namespace
 }  // namespace lcmslam::octo3d

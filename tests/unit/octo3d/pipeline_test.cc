@@ -117,6 +117,22 @@ TEST(Pipeline, SaysWhatACorridorDoesNotShow) {
   }
 }
 
+// Level beams meet the walls of a bare room only, whose surfels are tilted a little by noise.
+TEST(Pipeline, DoesNotTakeNoiseOfWallsForHeight) {
+  for (const uint64_t seed : {1001, 1011}) {
+    SCOPED_TRACE(seed);
+    const SpatialEpisode episode = Episode("bare_room", 1.0, true, seed);  // at rest
+    Pipeline pipeline{Options{}};
+    (void)pipeline.Process(episode.Frame(0).sweep);
+    for (int i = 1; i < episode.num_frames(); ++i) {
+      const Result result = pipeline.Process(episode.Frame(i).sweep);
+      ASSERT_EQ(result.status, SweepStatus::kTracking);
+      ASSERT_GE(result.unobservable.cols(), 1);
+      EXPECT_GT(std::abs(result.unobservable(2, 0)), 0.99);
+    }
+  }
+}
+
 TEST(Pipeline, SameInputSameBytes) {
   const SpatialEpisode episode = Episode("hall10", 1.0);
   std::string maps[2];

@@ -174,6 +174,50 @@ TEST(PlaneConstraints, AgreeWithEquationsInDoublePrecisionFarOut) {
   }
 }
 
+// The oracle: every normal tilted at random by as much as the map says that it may be off.
+TEST(PlaneConstraints, NoiseOfNormalsIsWhatTiltedNormalsAdd) {
+  const Box box;
+  const SurfelMap map = BoxMap(box);
+  const MotionSegment motion(Moving(), Extrapolate(Moving(), kDurationS), kDurationS);
+  const std::vector<Patch> patches = SeenFrom(box, motion, 500);
+  const RegistrationOptions options;
+  const TimeSlots slots(kFirstDtUs);
+  const PoseTable poses(slots, [&](double dt_us) { return motion.At(1.0 + 1e-6 * dt_us / kDurationS); });
+  PlaneConstraints constraints(map, patches, options, Eigen::Vector3d::Zero());
+  SweepInformation information;
+  (void)constraints.AddTo(information, poses, 0.0);
+  const Matrix6 noise = constraints.NoiseOfNormals(0.0);
+
+  std::mt19937_64 random(6);
+  const int trials = 400;
+  Matrix6 gain = Matrix6::Zero();
+  for (const Patch& patch : patches) {
+    const PlaneMatch plane = map.Find(poses[patch.slot] * patch.mean);
+    if (!plane.found) continue;
+    const double range_var = std::pow(map.options().range_noise_m, 2);
+    const double plane_var = plane.variance + std::pow(options.model_error_m, 2);
+    const double residual = plane.normal.dot(poses[patch.slot] * patch.mean - plane.mean);
+    const double kernel2 = std::pow(options.kernel, 2) * (range_var + plane_var);
+    const double weight =
+        std::pow(kernel2 / (kernel2 + residual * residual), 2) / (range_var / patch.count + plane_var);
+    const Eigen::Vector3d lever = poses[patch.slot].R_map_lidar * patch.mean;
+    const auto outer = [&](const Eigen::Vector3d& n) -> Matrix6 {
+      Vector6 J;
+      J << n, lever.cross(n);
+      return J * J.transpose();
+    };
+    const Eigen::Vector3d u = plane.normal.unitOrthogonal(), v = plane.normal.cross(u);
+    const double tilt = std::sqrt(2.0 * plane.tilt_variance);
+    for (int i = 0; i < trials; ++i) {  // towards any side, and back
+      const double towards = 2.0 * M_PI * static_cast<double>(random()) / static_cast<double>(random.max());
+      const Eigen::Vector3d off = tilt * (std::cos(towards) * u + std::sin(towards) * v);
+      gain += weight / trials * (0.5 * (outer(plane.normal + off) + outer(plane.normal - off)) - outer(plane.normal));
+    }
+  }
+  EXPECT_GT(noise.norm(), 0.0);
+  EXPECT_LT((noise - gain).norm(), 0.02 * noise.norm());
+}
+
 TEST(SweepInformation, AgreesWithDenseNormalEquations) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

@@ -96,6 +96,7 @@ TEST(SurfelMap, FindsManyPlanesAsItFindsEach) {
     EXPECT_EQ(planes[i].mean, alone.mean);
     EXPECT_EQ(planes[i].normal, alone.normal);
     EXPECT_EQ(planes[i].variance, alone.variance);
+    EXPECT_EQ(planes[i].tilt_variance, alone.tilt_variance);
     found += alone.found;
   }
   EXPECT_GT(found, 50);
@@ -106,7 +107,7 @@ TEST(SurfelMap, FindsManyPlanesAsItFindsEach) {
 TEST(SurfelMap, VarianceOfAPlaneIsThatOfTheFit) {
   // Many independent maps: the spread of the found height about the truth must be what the match claims (less its model
   // error).
-  double squares = 0.0, claimed = 0.0;
+  double squares = 0.0, claimed = 0.0, tilts = 0.0, claimed_tilts = 0.0;
   const int trials = 200;
   MapOptions options;
   options.curvature_per_m = 0.0;
@@ -119,9 +120,13 @@ TEST(SurfelMap, VarianceOfAPlaneIsThatOfTheFit) {
     const double height = match.normal.dot(match.mean - p) / match.normal.z();
     squares += height * height / trials;
     claimed += match.variance / trials;
+    tilts += match.normal.head<2>().squaredNorm() / 2.0 / trials;
+    claimed_tilts += match.tilt_variance / trials;
   }
   EXPECT_GT(claimed / squares, 0.5);
   EXPECT_LT(claimed / squares, 4.0) << "the claim allows for clipping too";
+  EXPECT_GT(claimed_tilts / tilts, 0.5);
+  EXPECT_LT(claimed_tilts / tilts, 4.0);
 }
 
 TEST(SurfelMap, ASingleRingIsNoSurface) {
